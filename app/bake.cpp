@@ -1,0 +1,102 @@
+#include "app/bake.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "app/error.h"
+#include "app/patch_bounds.h"
+
+namespace trisect {
+namespace {
+
+using glm::dvec3;
+
+vec4 rounded(const dvec3& v, double w = 0.0) {
+  return {glm::vec3(v), static_cast<float>(w)};
+}
+
+float rounded_up(double x) {
+  const auto nearest = static_cast<float>(x);
+  return static_cast<double>(nearest) < x
+             ? std::nextafter(nearest, std::numeric_limits<float>::infinity())
+             : nearest;
+}
+
+// Curvature of the sphere through P_i with normal N_i that also passes through P_i + edge.
+double curvature(const dvec3& edge, const dvec3& normal) {
+  return -2.0 * glm::dot(edge, normal) / glm::dot(edge, edge);
+}
+
+}  // namespace
+
+Triangle bake_triangle(const std::array<dvec3, 3>& positions, const std::array<dvec3, 3>& normals,
+                       const SurfaceChoice& choice) {
+  Triangle tri{};
+  std::array<dvec3, 3> P{};
+  std::array<dvec3, 3> N{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    tri.Position[i] = rounded(positions[i]);
+    tri.Normal[i] = rounded(normals[i]);
+    P[i] = dvec3(tri.Position[i]);
+    N[i] = dvec3(tri.Normal[i]);
+  }
+  dvec3 n = glm::cross(P[1] - P[0], P[2] - P[0]);
+  // A triangle that rounding has flattened keeps the face normal it had.
+  if (n == dvec3(0.0)) n = glm::cross(positions[1] - positions[0], positions[2] - positions[0]);
+  n = glm::normalize(n);
+  double longest = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    longest = std::max(longest, glm::distance(P[i], P[(i + 1) % 3]));
+  }
+  tri.TriNormal = rounded(n);
+  tri.TriNormal.w = rounded_up(longest);
+  for (int i = 0; i < 3; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    tri.NormDot[i] = static_cast<float>(glm::dot(N[k], dvec3(tri.TriNormal)));
+    // The neighbours, the lower-numbered one first.
+    const dvec3 a = P[k == 0 ? 1 : 0] - P[k];
+    const dvec3 b = P[k == 2 ? 1 : 2] - P[k];
+    tri.VertexData[i] = rounded({curvature(a, N[k]), curvature(b, N[k]),
+                                 std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b))});
+  }
+  const Ball ball = bound_patch(choice.surface, tri, choice.alpha);
+  const dvec3 center(glm::vec3(ball.center));
+  tri.Domain = rounded(center);
+  tri.Domain.w = rounded_up(ball.radius + glm::distance(center, ball.center));
+  return tri;
+}
+
+BakedScene bake(const Mesh& mesh, const SurfaceChoice& choice) {
+  BakedScene scene;
+  scene.choice = choice;
+  dvec3 low(std::numeric_limits<double>::infinity());
+  dvec3 high = -low;
+  for (const dvec3& p : mesh.positions) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  scene.origin = low + (high - low) * 0.5;
+  // Squares of distances must stay finite in single precision.
+  constexpr double largest = 1e18;
+  if (!(glm::distance(low, high) < largest)) {
+    throw InputError("the model spans more than 1e18 units, too much for single precision.");
+  }
+  scene.triangles.reserve(mesh.triangles.size());
+  for (const MeshTriangle& t : mesh.triangles) {
+    std::array<dvec3, 3> positions{};
+    std::array<dvec3, 3> normals{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      positions[i] = mesh.positions[t.vertex[i]] - scene.origin;
+      normals[i] = mesh.normals[t.normal[i]];
+    }
+    scene.triangles.push_back(bake_triangle(positions, normals, choice));
+    const vec4& domain = scene.triangles.back().Domain;
+    scene.radius =
+        std::max(scene.radius, glm::length(dvec3(domain)) + static_cast<double>(domain.w));
+  }
+  return scene;
+}
+
+}  // namespace trisect

@@ -1,0 +1,36 @@
+// From a mesh to the triangle buffer of the kernels.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "app/mesh.h"
+#include "app/shared.h"
+
+namespace trisect {
+
+// What a surface is made of.
+struct SurfaceChoice {
+  uint surface = SURFACE_PHONG;
+  double alpha = 0.65;  // phong only
+};
+
+// The mesh as the kernels see it. Positions are relative to `origin`, the centre of the vertices'
+// box, so that a model far from the world's origin keeps its digits in single precision.
+struct BakedScene {
+  SurfaceChoice choice;
+  glm::dvec3 origin{0.0};
+  std::vector<Triangle> triangles;  // in the order of the mesh
+  double radius = 0.0;  // of the ball about `origin` that contains every triangle's Domain
+};
+
+// Pure. Throws InputError if the model is too large for single precision.
+BakedScene bake(const Mesh& mesh, const SurfaceChoice& choice);
+
+// One triangle, from positions relative to the scene's origin and unit normals. Everything but the
+// first two members follows from the rounded positions and normals, as the kernels see them.
+Triangle bake_triangle(const std::array<glm::dvec3, 3>& positions,
+                       const std::array<glm::dvec3, 3>& normals, const SurfaceChoice& choice);
+
+}  // namespace trisect

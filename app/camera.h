@@ -1,0 +1,32 @@
+// A pinhole camera and the rays it gives the kernels.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+
+#include "app/shared.h"
+
+namespace trisect {
+
+struct Camera {
+  glm::dvec3 eye{0.0, 0.0, 1.0};
+  glm::dvec3 target{0.0};
+  glm::dvec3 up{0.0, 1.0, 0.0};
+  double fov = 45.0;  // vertical, degrees, more than 0 and less than 180
+};
+
+// A camera that looks at `center` from in front, a little to the right and above, from where the
+// model's vertices just leave a margin on every side of an image of this aspect (width over
+// height). fov in degrees.
+Camera framing_camera(std::span<const glm::dvec3> vertices, const glm::dvec3& center, double fov,
+                      const glm::dvec3& up, double aspect);
+
+// Fills in the rays of `params` for an image of params.width by params.height pixels, relative to
+// the scene origin, between a near and a far plane at these distances in front of the eye.
+// Unprojects the corners of the clip volume by the double-precision inverse of the view-projection
+// matrix, as the thesis does; through them every pixel's near point is linear in its position.
+// Throws UsageError if the camera looks along its up vector or nowhere.
+void set_rays(const Camera& camera, const glm::dvec3& origin, double near, double far,
+              TraceParams& params);
+
+}  // namespace trisect

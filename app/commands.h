@@ -1,0 +1,14 @@
+// What the program does, one function a command. They throw what error.h has, or gpu::Error.
+#pragma once
+
+#include "app/options.h"
+
+namespace trisect {
+
+// Renders the model to the output file and prints the figures; returns an exit code.
+int render(const RenderOptions& options);
+
+// Lists the Vulkan devices; returns an exit code.
+int list_devices();
+
+}  // namespace trisect

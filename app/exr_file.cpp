@@ -1,0 +1,79 @@
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfOutputFile.h>
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <exception>
+#include <vector>
+
+#include "app/error.h"
+#include "app/image_file.h"
+
+namespace trisect {
+namespace {
+
+// One channel after the other, each a component of an array of structures.
+class Channels {
+ public:
+  Channels(Imf::Header& header, std::size_t width) : header_(header), width_(width) {}
+
+  template <typename Pixel>
+  void add(const char* name, Imf::PixelType type, const std::vector<Pixel>& pixels,
+           std::size_t offset) {
+    header_.channels().insert(name, Imf::Channel(type));
+    // OpenEXR's slices are not const; writing a file only reads them.
+    auto* base = reinterpret_cast<char*>(const_cast<Pixel*>(pixels.data())) + offset;
+    slices_.insert(name, Imf::Slice(type, base, sizeof(Pixel), sizeof(Pixel) * width_));
+  }
+
+  [[nodiscard]] const Imf::FrameBuffer& slices() const { return slices_; }
+
+ private:
+  Imf::Header& header_;
+  std::size_t width_;
+  Imf::FrameBuffer slices_;
+};
+
+}  // namespace
+
+void write_exr(const Frame& frame, const AtomicFile& file) {
+  Imf::Header header(static_cast<int>(frame.width), static_cast<int>(frame.height));
+  Channels channels(header, frame.width);
+  constexpr std::size_t component = sizeof(float);
+  std::vector<vec4> linear;
+  linear.reserve(frame.colors.size());
+  for (const vec4& color : frame.colors) {
+    linear.emplace_back(linear_from_srgb(color.x), linear_from_srgb(color.y),
+                        linear_from_srgb(color.z), color.w);
+  }
+  channels.add("R", Imf::FLOAT, linear, 0);
+  channels.add("G", Imf::FLOAT, linear, component);
+  channels.add("B", Imf::FLOAT, linear, 2 * component);
+  channels.add("A", Imf::FLOAT, linear, 3 * component);
+  if (!frame.aovs.empty()) {
+    constexpr std::size_t normal = offsetof(PixelAovs, normal_z);
+    constexpr std::size_t geometric = offsetof(PixelAovs, geometric_u);
+    channels.add("N.X", Imf::FLOAT, frame.aovs, normal);
+    channels.add("N.Y", Imf::FLOAT, frame.aovs, normal + component);
+    channels.add("N.Z", Imf::FLOAT, frame.aovs, normal + 2 * component);
+    channels.add("Z", Imf::FLOAT, frame.aovs, normal + 3 * component);
+    channels.add("G.X", Imf::FLOAT, frame.aovs, geometric);
+    channels.add("G.Y", Imf::FLOAT, frame.aovs, geometric + component);
+    channels.add("G.Z", Imf::FLOAT, frame.aovs, geometric + 2 * component);
+    channels.add("U", Imf::FLOAT, frame.aovs, geometric + 3 * component);
+    channels.add("V", Imf::FLOAT, frame.aovs, offsetof(PixelAovs, v));
+    channels.add("patch", Imf::UINT, frame.aovs, offsetof(PixelAovs, triangle));
+  }
+  try {
+    Imf::OutputFile out(file.temporary().c_str(), header);
+    out.setFrameBuffer(channels.slices());
+    out.writePixels(static_cast<int>(frame.height));
+  } catch (const std::exception& error) {
+    throw InputError(
+        fmt::format("{}: could not be written: {}.", file.target().string(), error.what()));
+  }
+}
+
+}  // namespace trisect

@@ -1,0 +1,26 @@
+// A rendered image in host memory.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "app/shared.h"
+
+namespace trisect {
+
+// Rows from top to bottom, pixels from left to right.
+struct Frame {
+  uint32_t width = 0;
+  uint32_t height = 0;
+  std::vector<vec4> colors;     // sRGB-encoded red, green, blue; 1 where a triangle was hit, else 0
+  std::vector<PixelAovs> aovs;  // empty if they were not asked for
+
+  [[nodiscard]] std::size_t hits() const {
+    std::size_t count = 0;
+    for (const vec4& color : colors) count += color.w > 0.0F ? 1 : 0;
+    return count;
+  }
+};
+
+}  // namespace trisect

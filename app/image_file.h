@@ -1,0 +1,27 @@
+// Frames as image files.
+#pragma once
+
+#include <filesystem>
+
+#include "app/atomic_file.h"
+#include "app/frame.h"
+
+namespace trisect {
+
+enum class ImageFormat { png, exr };
+
+// By the file name's ending, .png or .exr in any letter case. Throws UsageError for any other.
+ImageFormat image_format(const std::filesystem::path& path);
+
+// One sRGB-encoded component as linear light (IEC 61966-2-1).
+float linear_from_srgb(float encoded);
+
+// Writes 8-bit sRGB. Throws InputError, naming the file.
+void write_png(const Frame& frame, const AtomicFile& file);
+
+// Writes R G B A (linear light, A = 1 where hit) and, if the frame has them, Z, N.X N.Y N.Z, G.X
+// G.Y G.Z, patch, U, V: single precision, patch as unsigned integers. Throws InputError, naming the
+// file.
+void write_exr(const Frame& frame, const AtomicFile& file);
+
+}  // namespace trisect

@@ -1,0 +1,30 @@
+#include "app/interrupt.h"
+
+#include <csignal>
+
+#include "app/error.h"
+
+namespace trisect {
+namespace {
+
+volatile std::sig_atomic_t signalled = 0;
+
+void on_signal(int /*number*/) {
+  signalled = 1;
+}
+
+}  // namespace
+
+void catch_interrupts() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+void stop_if_interrupted() {
+  if (signalled != 0) throw Interrupted();
+}
+
+}  // namespace trisect

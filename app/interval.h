@@ -1,0 +1,71 @@
+// Interval arithmetic in double precision: every result contains the exact one, whatever the
+// rounding.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <limits>
+
+namespace trisect {
+
+struct Interval {
+  double lo = 0.0;
+  double hi = 0.0;
+
+  Interval() = default;
+  Interval(double value)
+      : lo(value), hi(value) {}  // NOLINT(google-explicit-constructor): a number is one
+  Interval(double low, double high) : lo(low), hi(high) {}
+};
+
+// One rounding to nearest moves a result by half a unit in its last place; this moves it outward by
+// two, or by the smallest number there is.
+inline Interval outward(double lo, double hi) {
+  constexpr double ulps = 2.0 * std::numeric_limits<double>::epsilon();
+  constexpr double tiny = std::numeric_limits<double>::denorm_min();
+  return {lo - std::abs(lo) * ulps - tiny, hi + std::abs(hi) * ulps + tiny};
+}
+
+inline Interval hull(const Interval& a, const Interval& b) {
+  return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
+}
+
+inline Interval operator-(const Interval& a) {
+  return {-a.hi, -a.lo};
+}
+inline Interval operator+(const Interval& a, const Interval& b) {
+  return outward(a.lo + b.lo, a.hi + b.hi);
+}
+inline Interval operator-(const Interval& a, const Interval& b) {
+  return outward(a.lo - b.hi, a.hi - b.lo);
+}
+inline Interval operator*(const Interval& a, const Interval& b) {
+  const auto [lo, hi] = std::minmax({a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi});
+  return outward(lo, hi);
+}
+
+// a / b for 0 < b.lo.
+inline Interval divide_by_positive(const Interval& a, const Interval& b) {
+  const auto [lo, hi] = std::minmax({a.lo / b.lo, a.lo / b.hi, a.hi / b.lo, a.hi / b.hi});
+  return outward(lo, hi);
+}
+
+inline Interval square(const Interval& a) {
+  const double low = std::max({0.0, a.lo, -a.hi});
+  const double high = std::max(-a.lo, a.hi);
+  const Interval result = outward(low * low, high * high);
+  return {std::max(result.lo, 0.0), result.hi};
+}
+
+// The square root of max(a, 0).
+inline Interval root(const Interval& a) {
+  const Interval result = outward(std::sqrt(std::max(a.lo, 0.0)), std::sqrt(std::max(a.hi, 0.0)));
+  return {std::max(result.lo, 0.0), result.hi};
+}
+
+inline Interval dot(const glm::dvec3& a, const glm::dvec3& b) {
+  return Interval(a.x) * b.x + Interval(a.y) * b.y + Interval(a.z) * b.z;
+}
+
+}  // namespace trisect

@@ -1,0 +1,43 @@
+// A triangle mesh with a normal at every corner, in double precision.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace trisect {
+
+struct MeshTriangle {
+  std::array<uint32_t, 3> vertex;  // into Mesh::positions, counter-clockwise seen from the front
+  std::array<uint32_t, 3> normal;  // into Mesh::normals
+};
+
+struct Mesh {
+  std::vector<glm::dvec3> positions;
+  std::vector<glm::dvec3> normals;  // unit length
+  std::vector<MeshTriangle> triangles;
+};
+
+// Where a mesh's normals come from.
+enum class NormalSource {
+  file,    // all from the file
+  welded,  // none in the file: angle-weighted over welded vertices
+  mixed,   // some corners have none in the file, or one of length zero, and got welded ones
+};
+
+// What there is to know about a mesh before it is drawn.
+struct MeshReport {
+  std::size_t triangles = 0;
+  std::size_t vertices = 0;  // distinct positions in use
+  NormalSource normals = NormalSource::file;
+  std::size_t degenerate_dropped = 0;  // triangles of no area, left out
+  std::size_t hard_edges = 0;          // two triangles whose normals differ along the edge
+  std::size_t open_edges = 0;          // one triangle only
+  std::size_t non_manifold_edges = 0;  // three triangles or more
+  std::size_t flipped_edges = 0;       // two triangles of opposite winding
+  std::size_t normals_behind = 0;      // corners whose normal points behind the triangle's face
+};
+
+}  // namespace trisect

@@ -1,0 +1,60 @@
+#include "app/options.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include <system_error>
+
+#include "app/error.h"
+
+namespace trisect {
+namespace {
+
+// The number that `text` begins with, which is cut off; false if there is none.
+template <typename Number>
+bool take_number(std::string_view& text, Number& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc()) return false;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return true;
+}
+
+bool take_character(std::string_view& text, char c) {
+  if (!text.starts_with(c)) return false;
+  text.remove_prefix(1);
+  return true;
+}
+
+}  // namespace
+
+const char* surface_name(uint surface) {
+  return surface == SURFACE_FLAT ? "flat" : surface == SURFACE_PHONG ? "phong" : "sphere";
+}
+
+void parse_size(const std::string& option, const std::string& text, uint32_t& width,
+                uint32_t& height) {
+  constexpr uint32_t largest = 16384;
+  std::string_view rest = text;
+  const bool parsed = take_number(rest, width) && take_character(rest, 'x') &&
+                      take_number(rest, height) && rest.empty();
+  if (!parsed || width < 1 || height < 1 || width > largest || height > largest) {
+    throw UsageError(fmt::format("{}: '{}' is not a size such as 800x600 (1 to {} pixels a side).",
+                                 option, text, largest));
+  }
+}
+
+glm::dvec3 parse_triple(const std::string& option, const std::string& text) {
+  std::string_view rest = text;
+  glm::dvec3 value(0.0);
+  const bool parsed = take_number(rest, value.x) && take_character(rest, ',') &&
+                      take_number(rest, value.y) && take_character(rest, ',') &&
+                      take_number(rest, value.z) && rest.empty();
+  if (!parsed || !std::isfinite(value.x + value.y + value.z)) {
+    throw UsageError(fmt::format("{}: '{}' is not three numbers such as 1,2.5,-3.", option, text));
+  }
+  return value;
+}
+
+}  // namespace trisect

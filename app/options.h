@@ -1,0 +1,40 @@
+// The command line's values, parsed.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+
+#include "app/shared.h"
+
+namespace trisect {
+
+struct RenderOptions {
+  std::string model;
+  std::string output;
+  uint32_t width = 800;
+  uint32_t height = 600;
+  uint surface = SURFACE_PHONG;
+  double alpha = 0.65;
+  uint32_t rank = 10;
+  std::optional<glm::dvec3> eye;
+  std::optional<glm::dvec3> target;
+  glm::dvec3 up{0.0, 1.0, 0.0};
+  double fov = 45.0;
+  std::optional<double> crease;
+  std::string device;
+  bool validation = false;
+  uint32_t runs = 1;
+  std::string stats;
+};
+
+const char* surface_name(uint surface);
+
+// "800x600". Throws UsageError, naming the option, for anything else.
+void parse_size(const std::string& option, const std::string& text, uint32_t& width,
+                uint32_t& height);
+
+// "1,-2.5,3e2". Throws UsageError, naming the option, for anything but three finite numbers.
+glm::dvec3 parse_triple(const std::string& option, const std::string& text);
+
+}  // namespace trisect

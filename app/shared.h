@@ -1,0 +1,32 @@
+// shaders/shared.h for C++: the buffer layouts in single precision, as they lie in device memory.
+#pragma once
+
+#include <cstddef>
+#include <glm/glm.hpp>
+
+namespace trisect {
+
+using glm::uint;
+using glm::vec4;
+
+// The lines below see vec4 and uint only.
+#include "shaders/shared.h"
+
+static_assert(sizeof(Triangle) == 192);
+static_assert(offsetof(Triangle, Position) == 0);
+static_assert(offsetof(Triangle, Normal) == 48);
+static_assert(offsetof(Triangle, TriNormal) == 96);
+static_assert(offsetof(Triangle, NormDot) == 112);
+static_assert(offsetof(Triangle, Domain) == 128);
+static_assert(offsetof(Triangle, VertexData) == 144);
+static_assert(sizeof(TraceParams) == 128);
+static_assert(offsetof(TraceParams, grid) == 80);
+static_assert(offsetof(TraceParams, width) == 96);
+static_assert(offsetof(TraceParams, alpha) == 112);
+static_assert(sizeof(TilePush) == 8);
+static_assert(sizeof(PixelAovs) == 48);
+static_assert(offsetof(PixelAovs, geometric_u) == 16);
+static_assert(offsetof(PixelAovs, v) == 32);
+static_assert(offsetof(PixelAovs, triangle) == 36);
+
+}  // namespace trisect

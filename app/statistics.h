@@ -1,0 +1,40 @@
+// What a render prints of itself, for people and for programs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/bake.h"
+#include "app/options.h"
+#include "app/vulkan_tracer.h"
+
+namespace trisect {
+
+// Smallest, middle and largest of one or more numbers; the middle of an even count is the mean of
+// two.
+struct Spread {
+  double min = 0.0;
+  double median = 0.0;
+  double max = 0.0;
+};
+
+Spread spread_of(std::vector<double> values);
+
+struct RenderStatistics {
+  std::string device;
+  std::string driver;
+  std::size_t patches = 0;
+  std::size_t hits = 0;
+  std::vector<FrameTime> frames;  // the counted runs
+  double load_ms = 0.0;
+  double bake_ms = 0.0;
+  double upload_ms = 0.0;
+};
+
+// The statistics as JSON, with the keys that README lists.
+std::string to_json(const RenderOptions& options, const RenderStatistics& statistics);
+
+// A few lines for a person.
+std::string to_text(const RenderOptions& options, const RenderStatistics& statistics);
+
+}  // namespace trisect

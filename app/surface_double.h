@@ -1,0 +1,30 @@
+// The shaders' surface mathematics as C++ in double precision: the same source text, compiled a
+// second time.
+#pragma once
+
+#include <glm/glm.hpp>
+
+namespace trisect::in_double {
+
+using namespace glm;  // NOLINT(google-build-using-namespace): GLSL's own function names
+using vec2 = glm::dvec2;
+using vec3 = glm::dvec3;
+using vec4 = glm::dvec4;
+
+#define real double
+#define OUT(T) T&
+// The shaders are plain functions; here they must be inline, and not all of them are called.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wfloat-equal"
+namespace {
+#include "shaders/linear.glsl"
+#include "shaders/shared.h"
+#include "shaders/surface.glsl"
+#include "shaders/thesis_field.glsl"
+}  // namespace
+#pragma GCC diagnostic pop
+#undef real
+#undef OUT
+
+}  // namespace trisect::in_double

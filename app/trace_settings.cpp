@@ -1,0 +1,26 @@
+#include "app/trace_settings.h"
+
+#include <cmath>
+
+namespace trisect {
+
+TraceParams make_params(const BakedScene& scene, const TraceSettings& settings) {
+  TraceParams params{};
+  params.width = settings.width;
+  params.height = settings.height;
+  params.triangle_count = static_cast<uint32_t>(scene.triangles.size());
+  params.rank = settings.rank;
+  params.alpha = static_cast<float>(scene.choice.alpha);
+  params.resolution = static_cast<float>(std::ldexp(1.0, -static_cast<int>(settings.rank)));
+  params.min_delta = static_cast<float>(settings.min_delta);
+  params.light = vec4(glm::vec3(glm::normalize(settings.light)), 0.0F);
+  // Four cells of the grid to the scene's radius.
+  params.grid = vec4(0.0F, 0.0F, 0.0F, static_cast<float>(4.0 / scene.radius));
+  // Nothing nearer than a thousandth of the scene's size, nothing beyond the scene.
+  const double near = scene.radius * 1e-3;
+  const double far = glm::distance(settings.camera.eye, scene.origin) + scene.radius + near;
+  set_rays(settings.camera, scene.origin, near, far, params);
+  return params;
+}
+
+}  // namespace trisect

@@ -1,0 +1,135 @@
+#include "app/vulkan_tracer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <span>
+#include <vector>
+
+#include "app/kernels.h"
+#include "vk/result.h"
+
+namespace trisect {
+namespace {
+
+// Bytes moved between host and device at a time.
+constexpr std::size_t kStagingBytes = std::size_t{32} << 20U;
+
+// The first submit of a tracer, before anything is known of its cost.
+constexpr uint32_t kFirstGroups = 8;
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
+}
+
+// Rows of the image that the output buffers hold at a time: all of them if the device's largest
+// storage buffer allows, else a whole number of workgroups.
+uint32_t rows_in_a_band(const gpu::Device& device, uint32_t width, uint32_t height, bool aovs) {
+  const std::size_t row = std::size_t{width} * (aovs ? sizeof(PixelAovs) : sizeof(vec4));
+  const std::size_t fit = device.limits().maxStorageBufferRange / row / TILE_SIZE * TILE_SIZE;
+  if (fit == 0) {
+    throw gpu::Error(fmt::format("device {} cannot hold {} rows of {} pixels in one buffer.",
+                                 device.report().name, TILE_SIZE, width));
+  }
+  return static_cast<uint32_t>(std::min<std::size_t>(fit, height));
+}
+
+std::size_t triangle_bytes(const gpu::Device& device, const BakedScene& scene) {
+  const std::size_t bytes = scene.triangles.size() * sizeof(Triangle);
+  const std::size_t limit = device.limits().maxStorageBufferRange;
+  if (bytes > limit) {
+    throw gpu::Error(fmt::format(
+        "device {} has storage buffers of at most {} MiB, which hold {} triangles; the model has "
+        "{}.",
+        device.report().name, limit >> 20U, limit / sizeof(Triangle), scene.triangles.size()));
+  }
+  return bytes;
+}
+
+}  // namespace
+
+VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, uint32_t width,
+                           uint32_t height, bool aovs)
+    : device_(device),
+      width_(width),
+      height_(height),
+      aovs_(aovs),
+      band_rows_(rows_in_a_band(device, width, height, aovs)),
+      kernel_(device, kTraceListSpirv, trace_list_interface(),
+              {{CONSTANT_SURFACE, scene.choice.surface}, {CONSTANT_AOVS, aovs ? 1U : 0U}},
+              "trace_list"),
+      commands_(device),
+      staging_(device, kStagingBytes),
+      params_(device, sizeof(TraceParams), gpu::Memory::device, "trace parameters"),
+      triangles_(device, triangle_bytes(device, scene), gpu::Memory::device, "triangles"),
+      colors_(device, std::size_t{width} * band_rows_ * sizeof(vec4), gpu::Memory::device,
+              "colors"),
+      // A binding wants a buffer; without AOVs nothing is written to it.
+      aovs_buffer_(device,
+                   aovs ? std::size_t{width} * band_rows_ * sizeof(PixelAovs) : sizeof(PixelAovs),
+                   gpu::Memory::device, "AOVs"),
+      bound_(device, kernel_, {&params_, &triangles_, &colors_, &aovs_buffer_}),
+      groups_per_submit_(kFirstGroups) {
+  const auto start = std::chrono::steady_clock::now();
+  staging_.upload(commands_, std::as_bytes(std::span(scene.triangles)), triangles_);
+  upload_ms_ = milliseconds_since(start);
+}
+
+FrameTime VulkanTracer::render(const TraceParams& params, Frame& frame,
+                               const std::function<void()>& between_submits) {
+  if (params.width != width_ || params.height != height_) {
+    throw gpu::Error("the trace parameters are not for this tracer's image size");
+  }
+  frame.width = width_;
+  frame.height = height_;
+  frame.colors.resize(std::size_t{width_} * height_);
+  frame.aovs.resize(aovs_ ? frame.colors.size() : 0);
+  const std::span<vec4> colors(frame.colors);
+  const std::span<PixelAovs> aovs(frame.aovs);
+
+  const auto start = std::chrono::steady_clock::now();
+  FrameTime time;
+  staging_.upload(commands_, std::as_bytes(std::span(&params, 1)), params_);
+  for (uint32_t row = 0; row < height_; row += band_rows_) {
+    const uint32_t rows = std::min(band_rows_, height_ - row);
+    time.gpu_ms += render_band(row, rows, between_submits);
+    const std::size_t first = std::size_t{row} * width_;
+    const std::size_t count = std::size_t{rows} * width_;
+    staging_.download(commands_, colors_, std::as_writable_bytes(colors.subspan(first, count)));
+    if (aovs_) {
+      staging_.download(commands_, aovs_buffer_,
+                        std::as_writable_bytes(aovs.subspan(first, count)));
+    }
+  }
+  time.wall_ms = milliseconds_since(start);
+  return time;
+}
+
+double VulkanTracer::render_band(uint32_t first_row, uint32_t rows,
+                                 const std::function<void()>& between_submits) {
+  const uint32_t groups_x = (width_ + TILE_SIZE - 1) / TILE_SIZE;
+  const uint32_t begin = first_row / TILE_SIZE * groups_x;
+  const uint32_t end = begin + (rows + TILE_SIZE - 1) / TILE_SIZE * groups_x;
+  double gpu_ms = 0.0;
+  for (uint32_t group = begin; group < end;) {
+    const uint32_t most = device_.limits().maxComputeWorkGroupCount[0];
+    const uint32_t count = std::min({groups_per_submit_, end - group, most});
+    const TilePush tile{group, first_row};
+    commands_.begin();
+    commands_.dispatch(kernel_, bound_, std::as_bytes(std::span(&tile, 1)), count);
+    const double ms = commands_.submit_and_wait();
+    gpu_ms += ms;
+    group += count;
+    // As many groups as the budget allows at this cost, and never much more than what is known to
+    // be safe.
+    const double affordable = static_cast<double>(count) * kSubmitMs / std::max(ms, 1e-3);
+    groups_per_submit_ = static_cast<uint32_t>(
+        std::clamp(affordable, 1.0, 8.0 * static_cast<double>(std::max(count, kFirstGroups))));
+    if (between_submits) between_submits();
+  }
+  return gpu_ms;
+}
+
+}  // namespace trisect

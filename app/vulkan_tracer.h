@@ -1,0 +1,61 @@
+// The Vulkan back end: a baked scene and trace parameters in, a frame out.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "app/bake.h"
+#include "app/frame.h"
+#include "app/shared.h"
+#include "vk/commands.h"
+
+namespace trisect {
+
+// Milliseconds for one frame.
+struct FrameTime {
+  double gpu_ms = 0.0;   // on the device, all submits added up
+  double wall_ms = 0.0;  // from the first submit until the frame is in host memory
+};
+
+class VulkanTracer {
+ public:
+  // Uploads the scene and compiles the kernel for its surface. width, height: pixels of the frames.
+  // aovs: whether frames have more than colour. Throws gpu::Error if the device cannot hold the
+  // scene.
+  VulkanTracer(const gpu::Device& device, const BakedScene& scene, uint32_t width, uint32_t height,
+               bool aovs);
+
+  // Renders into `frame`, in submits of about kSubmitMs. params.width and .height must be the
+  // tracer's. between_submits, if set, is called between any two; what it throws stops the frame.
+  FrameTime render(const TraceParams& params, Frame& frame,
+                   const std::function<void()>& between_submits = {});
+
+  [[nodiscard]] double upload_ms() const { return upload_ms_; }
+
+  // A submit should keep the device no longer than this: drivers reset a device that does not
+  // answer for about two seconds, and a desktop that shares it stutters long before.
+  static constexpr double kSubmitMs = 100.0;
+
+ private:
+  double render_band(uint32_t first_row, uint32_t rows,
+                     const std::function<void()>& between_submits);
+
+  const gpu::Device& device_;
+  uint32_t width_;
+  uint32_t height_;
+  bool aovs_;
+  uint32_t band_rows_;
+  gpu::Kernel kernel_;
+  gpu::Commands commands_;
+  gpu::Staging staging_;
+  gpu::Buffer params_;
+  gpu::Buffer triangles_;
+  gpu::Buffer colors_;
+  gpu::Buffer aovs_buffer_;
+  gpu::BoundBuffers bound_;
+  double upload_ms_ = 0.0;
+  uint32_t groups_per_submit_;
+};
+
+}  // namespace trisect

@@ -1,0 +1,19 @@
+// Vector products as explicit sums, so that every compiler (glslang, Mesa's OpenGL front end, g++, clang)
+// rounds in the same order; the built-in dot and normalize do not promise that.
+
+real dot3(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+vec3 cross3(vec3 a, vec3 b) {
+  return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+
+real length3(vec3 a) { return sqrt(dot3(a, a)); }
+
+vec3 normalize3(vec3 a) { return a / length3(a); }
+
+// The point with barycentric weights w among a, b, c.
+vec3 weigh(vec3 w, vec3 a, vec3 b, vec3 c) { return a * w.x + b * w.y + c * w.z; }
+
+// Angle between a and b, 0 to pi. Where the thesis has acos of a dot product, which loses half the digits
+// near 0, this is Kahan's form.
+real AngleBetween(vec3 a, vec3 b) { return atan(length3(cross3(a, b)), dot3(a, b)); }

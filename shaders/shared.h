@@ -1,0 +1,75 @@
+// What C++ and GLSL share: buffer layouts, binding numbers, constants. Declared here, once.
+//
+// This file is included by the shaders and, through app/shared.h, by C++ (inside a namespace in
+// which vec4 and uint are GLM's; there is no include guard because each scalar type gets a
+// namespace of its own). Only vec4 and 4-byte scalars in groups of four appear, so std140, std430
+// and C++ agree on every offset; tests/layout_test.cpp proves it against the compiled SPIR-V.
+
+// A baked triangle, 192 bytes: the structure of the thesis, member for member.
+struct Triangle {
+  vec4 Position[3];    // xyz: vertex
+  vec4 Normal[3];      // xyz: unit vertex normal
+  vec4 TriNormal;      // xyz: unit face normal n; w: length of the longest edge
+  vec4 NormDot;        // component i: dot(Normal[i], n)
+  vec4 Domain;         // xyz, w: centre and radius of a ball that contains the displaced patch
+  vec4 VertexData[3];  // at vertex i: x, y: curvature toward its lower- and higher-numbered
+                       // neighbour; z: interior angle in radians
+};
+
+// One frame's constants. Rays leave the eye; near(x, y) = eye + ray_corner + x ray_dx + y ray_dy is
+// the point of the near plane seen through image position (x, y) in pixels, y down, (0, 0) the top
+// left corner.
+struct TraceParams {
+  vec4 eye;  // xyz: position of the eye; w: distance of the far plane over that of the near plane
+  vec4 ray_corner;  // xyz
+  vec4 ray_dx;      // xyz
+  vec4 ray_dy;      // xyz
+  vec4 light;       // xyz: unit vector toward the light
+  vec4 grid;        // xyz: origin of the shading grid; w: 1 / its cell size
+  uint width;       // image size in pixels
+  uint height;
+  uint triangle_count;
+  uint rank;         // bisection: rank - 1 halvings
+  float alpha;       // Phong Tessellation: 0 flat, 1 full projection
+  float resolution;  // bisection: 2^-rank, the acceptance tolerance over the chord's length
+  float min_delta;   // bisection: smallest acceptance tolerance, world units
+  float padding0;
+};
+
+// What one submit covers: workgroups first_group, first_group + 1, ... in raster order, of an image
+// whose row first_row is the first one that the output buffers hold.
+struct TilePush {
+  uint first_group;
+  uint first_row;
+};
+
+// Per-pixel outputs beside the colour.
+struct PixelAovs {
+  vec4
+      normal_z;  // xyz: shading normal; w: distance from the eye along the unit ray, 0 where missed
+  vec4 geometric_u;  // xyz: geometric normal; w: barycentric weight of vertex 1
+  float v;           // barycentric weight of vertex 2
+  uint triangle;     // index of the triangle, NO_TRIANGLE where missed
+  uint padding0;
+  uint padding1;
+};
+
+const uint NO_TRIANGLE = 4294967295u;
+
+// Surfaces: how far a point of the base triangle is displaced.
+const uint SURFACE_FLAT = 0u;
+const uint SURFACE_PHONG = 1u;
+const uint SURFACE_SPHERE = 2u;
+
+// Workgroups are TILE_SIZE x TILE_SIZE pixels.
+#define TILE_SIZE 8
+
+// Descriptor bindings, set 0.
+#define BINDING_PARAMS 0
+#define BINDING_TRIANGLES 1
+#define BINDING_COLOR 2
+#define BINDING_AOVS 3
+
+// Specialisation constants.
+#define CONSTANT_SURFACE 0
+#define CONSTANT_AOVS 1

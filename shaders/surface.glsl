@@ -1,0 +1,171 @@
+// The surfaces in closed form, in the thesis's shell: a point of the base triangle with weights w is
+// T(w) = sum w_i P_i, its direction D(w) = sum w_i N_i / (N_i.n), and the surface is
+// S(w) = T(w) + sigma(w) D(w). Since D.n = 1, sigma is the height over the base plane.
+//
+// flat:   sigma = 0.
+// phong:  the Phong Tessellation of Boubekeur & Alexa 2008 (eq. 1: project T on the three tangent planes,
+//         blend, mix by alpha), projected on the line T + s D.
+// sphere: each vertex has a sphere through it with its normal, blended between the two edges that leave it
+//         (spherical interpolation after Gusiatin et al. 2017, 2018); sigma = sum w_i s_i, where T + s_i D
+//         meets sphere i.
+//
+// S_u and S_v below are derivatives along u = w_1 and v = w_2 with w_0 = 1 - u - v.
+
+vec3 base_point(Triangle tri, vec3 w) {
+  return weigh(w, vec3(tri.Position[0]), vec3(tri.Position[1]), vec3(tri.Position[2]));
+}
+
+// N_i / (N_i.n), for a vertex normal and its entry of NormDot.
+vec3 shell_direction(Triangle tri, vec3 w) {
+  return weigh(w, vec3(tri.Normal[0]) / tri.NormDot.x, vec3(tri.Normal[1]) / tri.NormDot.y,
+               vec3(tri.Normal[2]) / tri.NormDot.z);
+}
+
+vec3 vertex_normal(Triangle tri, vec3 w) {
+  return weigh(w, vec3(tri.Normal[0]), vec3(tri.Normal[1]), vec3(tri.Normal[2]));
+}
+
+// Phong Tessellation's offset from T at alpha = 1: sum w_i ((P_i - T).N_i) N_i.
+vec3 phong_offset(Triangle tri, vec3 w, vec3 T) {
+  vec3 k = vec3(dot3(vec3(tri.Position[0]) - T, vec3(tri.Normal[0])),
+                dot3(vec3(tri.Position[1]) - T, vec3(tri.Normal[1])),
+                dot3(vec3(tri.Position[2]) - T, vec3(tri.Normal[2])));
+  return weigh(w * k, vec3(tri.Normal[0]), vec3(tri.Normal[1]), vec3(tri.Normal[2]));
+}
+
+// Where the line x0 + s dir, x0 relative to the vertex, meets the sphere c |x|^2 + 2 x.N = 0 of curvature c
+// through the vertex: A s^2 + 2 B s + C = 0, the root next to x0. Divides by no curvature, so c = 0 is a
+// plane and no limit case. A line that misses the sphere passes closest to it at s = -B / A; to be continuous
+// with the lines that touch it, it gets -C / B.
+real sphere_root(vec3 x0, vec3 dir, vec3 N, real c) {
+  real A = c * dot3(dir, dir);
+  real B = c * dot3(x0, dir) + dot3(dir, N);
+  real C = c * dot3(x0, x0) + real(2.0) * dot3(x0, N);
+  if (C == real(0.0)) return real(0.0);
+  real root = sqrt(max(B * B - A * C, real(0.0)));
+  return -C / (B < real(0.0) ? B - root : B + root);
+}
+
+// The curvature at vertex i toward the point T of the triangle, linear in the angle at the vertex between
+// the curvatures toward its neighbours a and b (a the lower-numbered one).
+real blended_curvature(vec3 T, vec3 vertex, vec3 b, vec4 data) {
+  real beta = clamp(AngleBetween(T - vertex, b - vertex) / data.z, real(0.0), real(1.0));
+  return data.x * beta + data.y * (real(1.0) - beta);
+}
+
+// s_i of the sphere surface: displacement toward the sphere of vertex i, in units of D. The farthest that a
+// point may be displaced is the triangle's longest edge (TriNormal.w); only a shell direction that lies in
+// the tangent plane of a vertex comes there, where the definition would send it to infinity.
+real sphere_height(vec3 T, vec3 D, vec3 vertex, vec3 normal, vec3 b, vec4 data, real longest) {
+  real limit = longest / length3(D);
+  return clamp(sphere_root(T - vertex, D, normal, blended_curvature(T, vertex, b, data)), -limit,
+               limit);
+}
+
+vec3 sphere_heights(Triangle tri, vec3 T, vec3 D) {
+  vec3 P0 = vec3(tri.Position[0]);
+  vec3 P1 = vec3(tri.Position[1]);
+  vec3 P2 = vec3(tri.Position[2]);
+  real longest = tri.TriNormal.w;
+  return vec3(sphere_height(T, D, P0, vec3(tri.Normal[0]), P2, tri.VertexData[0], longest),
+              sphere_height(T, D, P1, vec3(tri.Normal[1]), P2, tri.VertexData[1], longest),
+              sphere_height(T, D, P2, vec3(tri.Normal[2]), P1, tri.VertexData[2], longest));
+}
+
+// sigma(w): the displacement in units of D(w).
+real displacement(uint surface, Triangle tri, vec3 w, real alpha) {
+  if (surface == SURFACE_FLAT) return real(0.0);
+  vec3 T = base_point(tri, w);
+  vec3 D = shell_direction(tri, w);
+  if (surface == SURFACE_PHONG) return alpha * dot3(D, phong_offset(tri, w, T)) / dot3(D, D);
+  return dot3(w, sphere_heights(tri, T, D));
+}
+
+vec3 surface_point(uint surface, Triangle tri, vec3 w, real alpha) {
+  return base_point(tri, w) + shell_direction(tri, w) * displacement(surface, tri, w, alpha);
+}
+
+// Derivative of phong's sigma when w moves by dw (sum 0), T by dT and D by dD.
+real phong_derivative(Triangle tri, vec3 w, vec3 dw, vec3 T, vec3 dT, vec3 D, vec3 dD, real alpha) {
+  vec3 N0 = vec3(tri.Normal[0]);
+  vec3 N1 = vec3(tri.Normal[1]);
+  vec3 N2 = vec3(tri.Normal[2]);
+  vec3 k = vec3(dot3(vec3(tri.Position[0]) - T, N0), dot3(vec3(tri.Position[1]) - T, N1),
+                dot3(vec3(tri.Position[2]) - T, N2));
+  vec3 dk = -vec3(dot3(dT, N0), dot3(dT, N1), dot3(dT, N2));
+  vec3 K = weigh(w * k, N0, N1, N2);
+  vec3 dK = weigh(dw * k + w * dk, N0, N1, N2);
+  real DD = dot3(D, D);
+  return alpha * (dot3(dD, K) + dot3(D, dK) - real(2.0) * dot3(D, K) * dot3(D, dD) / DD) / DD;
+}
+
+// Derivative of s_i when T moves by dT and D by dD. `turn` is +n or -n, the axis about which the angle from b
+// to the point grows.
+real sphere_derivative(vec3 T, vec3 dT, vec3 D, vec3 dD, real s, vec3 vertex, vec3 N, vec3 b, vec4 data,
+                       real longest, vec3 turn) {
+  vec3 x0 = T - vertex;
+  real xx = dot3(x0, x0);
+  real DD = dot3(D, D);
+  if (xx == real(0.0)) return -dot3(dT, N) / dot3(D, N);
+  if (s * s * DD >= longest * longest) return -s * dot3(D, dD) / DD;
+  real c = blended_curvature(T, vertex, b, data);
+  real dc = (data.x - data.y) * dot3(cross3(turn, x0), dT) / (xx * data.z);
+  real A = c * DD;
+  real B = c * dot3(x0, D) + dot3(D, N);
+  real dA = dc * DD + real(2.0) * c * dot3(D, dD);
+  real dB = dc * dot3(x0, D) + c * (dot3(dT, D) + dot3(x0, dD)) + dot3(dD, N);
+  real dC = dc * xx + real(2.0) * (c * dot3(x0, dT) + dot3(dT, N));
+  real C = c * xx + real(2.0) * dot3(x0, N);
+  real discriminant = B * B - A * C;
+  if (discriminant <= real(0.0)) return -(dC + s * dB) / B;
+  // A s^2 + 2 B s + C = 0, differentiated; A s + B is the square root of the discriminant with B's sign.
+  return -(dA * s * s + real(2.0) * dB * s + dC) / (real(2.0) * (A * s + B));
+}
+
+// The geometric normal S_u x S_v, unit length, on the side of the face normal where the shell is not folded.
+vec3 geometric_normal(uint surface, Triangle tri, vec3 w, real alpha) {
+  vec3 n = vec3(tri.TriNormal);
+  if (surface == SURFACE_FLAT) return n;
+  vec3 P0 = vec3(tri.Position[0]);
+  vec3 P1 = vec3(tri.Position[1]);
+  vec3 P2 = vec3(tri.Position[2]);
+  vec3 D0 = vec3(tri.Normal[0]) / tri.NormDot.x;
+  vec3 T = base_point(tri, w);
+  vec3 Tu = P1 - P0;
+  vec3 Tv = P2 - P0;
+  vec3 D = shell_direction(tri, w);
+  vec3 Du = vec3(tri.Normal[1]) / tri.NormDot.y - D0;
+  vec3 Dv = vec3(tri.Normal[2]) / tri.NormDot.z - D0;
+  vec3 du = vec3(-1.0, 1.0, 0.0);
+  vec3 dv = vec3(-1.0, 0.0, 1.0);
+  real sigma;
+  real sigma_u;
+  real sigma_v;
+  if (surface == SURFACE_PHONG) {
+    sigma = displacement(surface, tri, w, alpha);
+    sigma_u = phong_derivative(tri, w, du, T, Tu, D, Du, alpha);
+    sigma_v = phong_derivative(tri, w, dv, T, Tv, D, Dv, alpha);
+  } else {
+    vec3 N0 = vec3(tri.Normal[0]);
+    vec3 N1 = vec3(tri.Normal[1]);
+    vec3 N2 = vec3(tri.Normal[2]);
+    vec3 s = sphere_heights(tri, T, D);
+    real longest = tri.TriNormal.w;
+    // The angle at a vertex is measured from neighbour b; seen along n, b follows a at vertices 0 and 2
+    // (so the angle shrinks as the point turns about +n) and precedes it at vertex 1.
+    vec3 su =
+        vec3(sphere_derivative(T, Tu, D, Du, s.x, P0, N0, P2, tri.VertexData[0], longest, -n),
+             sphere_derivative(T, Tu, D, Du, s.y, P1, N1, P2, tri.VertexData[1], longest, n),
+             sphere_derivative(T, Tu, D, Du, s.z, P2, N2, P1, tri.VertexData[2], longest, -n));
+    vec3 sv =
+        vec3(sphere_derivative(T, Tv, D, Dv, s.x, P0, N0, P2, tri.VertexData[0], longest, -n),
+             sphere_derivative(T, Tv, D, Dv, s.y, P1, N1, P2, tri.VertexData[1], longest, n),
+             sphere_derivative(T, Tv, D, Dv, s.z, P2, N2, P1, tri.VertexData[2], longest, -n));
+    sigma = dot3(w, s);
+    sigma_u = dot3(du, s) + dot3(w, su);
+    sigma_v = dot3(dv, s) + dot3(w, sv);
+  }
+  vec3 Su = Tu + D * sigma_u + Du * sigma;
+  vec3 Sv = Tv + D * sigma_v + Dv * sigma;
+  return normalize3(cross3(Su, Sv));
+}

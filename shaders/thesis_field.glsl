@@ -1,0 +1,87 @@
+// The thesis's fields, listings 3.5 (phong) and 3.6 (sphere): at a point of space, the weights of the base
+// triangle's offset copy through that point and the signed distance to the surface along the shell
+// direction, positive outside. The functions keep the listings' names. Deviations, none of which moves the
+// zero set of a well-formed patch:
+//  - the listings' direction normalize(triPos - pos) * sign(height) is 0/0 at height 0; its limit is used there;
+//  - listing 3.6 works with radii 1/c, the curvature c clamped away from 0, which in single precision
+//    leaves errors of 5e-2 on a flat patch; SphereDist here takes c and divides by it only where it must;
+//  - where the line misses a sphere, rsi() returns 1e5; here the discriminant is taken as 0.
+
+// Height of pos over the plane through origin with unit normal n.
+real Height(vec3 pos, vec3 origin, vec3 n) { return dot3(pos - origin, n); }
+
+// Weights of pos, a point of the plane of a, b, c, among them.
+vec3 Barycentric(vec3 pos, vec3 a, vec3 b, vec3 c) {
+  vec3 normal = cross3(b - a, c - a);
+  real area = dot3(normal, normal);
+  real wb = dot3(cross3(pos - a, c - a), normal) / area;
+  real wc = dot3(cross3(b - a, pos - a), normal) / area;
+  return vec3(real(1.0) - wb - wc, wb, wc);
+}
+
+// pos projected on the plane through origin with unit normal n.
+vec3 Project(vec3 pos, vec3 origin, vec3 n) { return pos - n * dot3(pos - origin, n); }
+
+// Distance from pos along dir to the plane through origin with normal n.
+real PlaneDist(vec3 pos, vec3 dir, vec3 origin, vec3 n) {
+  return dot3(origin - pos, n) / dot3(dir, n);
+}
+
+// The listings' dir: from pos toward the base triangle if above it, away if below.
+vec3 inward(vec3 pos, vec3 triPos, real height, vec3 D) {
+  return height == real(0.0) ? -normalize3(D) : normalize3(triPos - pos) * sign(height);
+}
+
+vec4 PhongField(Triangle tri, vec3 pos, real alpha) {
+  vec3 P0 = vec3(tri.Position[0]);
+  vec3 P1 = vec3(tri.Position[1]);
+  vec3 P2 = vec3(tri.Position[2]);
+  real height = Height(pos, P0, vec3(tri.TriNormal));
+  vec3 weights = Barycentric(pos, P0 + vec3(tri.Normal[0]) / tri.NormDot.x * height,
+                             P1 + vec3(tri.Normal[1]) / tri.NormDot.y * height,
+                             P2 + vec3(tri.Normal[2]) / tri.NormDot.z * height);
+  vec3 triPos = weigh(weights, P0, P1, P2);
+  vec3 dir = inward(pos, triPos, height, shell_direction(tri, weights));
+  vec3 phPos = weigh(weights, Project(triPos, P0, vec3(tri.Normal[0])),
+                     Project(triPos, P1, vec3(tri.Normal[1])),
+                     Project(triPos, P2, vec3(tri.Normal[2])));
+  phPos = mix(triPos, phPos, alpha);
+  return vec4(weights, PlaneDist(pos, dir, phPos, -dir));
+}
+
+// Distance from pos along the unit vector dir to the sphere c |x|^2 + 2 x.N = 0, x relative to vertex: to
+// where the line enters a convex one or leaves a concave one, r.x - sign(r) r.y in the listing.
+real SphereDist(vec3 pos, vec3 dir, vec3 vertex, vec3 N, real c) {
+  vec3 x0 = pos - vertex;
+  real B = c * dot3(x0, dir) + dot3(dir, N);
+  real C = c * dot3(x0, x0) + real(2.0) * dot3(x0, N);
+  real root = sqrt(max(B * B - c * C, real(0.0)));
+  if (B < real(0.0)) return C / (root - B);
+  return -(B + root) / (c > real(0.0) ? max(c, real(1e-6)) : min(c, real(-1e-6)));
+}
+
+vec4 SphereField(Triangle tri, vec3 pos) {
+  vec3 P0 = vec3(tri.Position[0]);
+  vec3 P1 = vec3(tri.Position[1]);
+  vec3 P2 = vec3(tri.Position[2]);
+  real height = Height(pos, P0, vec3(tri.TriNormal));
+  vec3 weights = Barycentric(pos, P0 + vec3(tri.Normal[0]) / tri.NormDot.x * height,
+                             P1 + vec3(tri.Normal[1]) / tri.NormDot.y * height,
+                             P2 + vec3(tri.Normal[2]) / tri.NormDot.z * height);
+  vec3 cw = clamp(weights, real(0.0), real(1.0));
+  cw /= cw.x + cw.y + cw.z;
+  vec3 triPos = weigh(cw, P0, P1, P2);
+  vec3 dir = inward(pos, triPos, height, shell_direction(tri, cw));
+  vec3 dist = vec3(SphereDist(pos, dir, P0, vec3(tri.Normal[0]),
+                              blended_curvature(triPos, P0, P2, tri.VertexData[0])),
+                   SphereDist(pos, dir, P1, vec3(tri.Normal[1]),
+                              blended_curvature(triPos, P1, P2, tri.VertexData[1])),
+                   SphereDist(pos, dir, P2, vec3(tri.Normal[2]),
+                              blended_curvature(triPos, P2, P1, tri.VertexData[2])));
+  return vec4(weights, dot3(dist, weights));
+}
+
+vec4 Field(uint surface, Triangle tri, vec3 pos, real alpha) {
+  if (surface == SURFACE_PHONG) return PhongField(tri, pos, alpha);
+  return SphereField(tri, pos);
+}

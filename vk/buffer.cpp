@@ -1,0 +1,43 @@
+#include "vk/buffer.h"
+
+#include "vk/result.h"
+
+namespace trisect::gpu {
+
+Buffer::Buffer(const Device& device, std::size_t size, Memory memory, const std::string& name)
+    : size_(size) {
+  VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+  info.size = size;
+  info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+               VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+  info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+  TRISECT_VK(vkCreateBuffer(device.get(), &info, nullptr, buffer_.fill(device.get())));
+  device.name(VK_OBJECT_TYPE_BUFFER, buffer_.get(), name);
+
+  VkMemoryRequirements needs{};
+  vkGetBufferMemoryRequirements(device.get(), buffer_.get(), &needs);
+  VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+  allocation.allocationSize = needs.size;
+  allocation.memoryTypeIndex =
+      memory == Memory::device
+          ? device.memory_type(needs.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)
+          : device.memory_type(
+                needs.memoryTypeBits,
+                VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
+                VK_MEMORY_PROPERTY_HOST_CACHED_BIT);
+  const VkResult allocated =
+      vkAllocateMemory(device.get(), &allocation, nullptr, memory_.fill(device.get()));
+  if (allocated != VK_SUCCESS) {
+    throw Error("device " + device.report().name + " has no " + std::to_string(size >> 20U) +
+                " MiB for the " + name + " buffer: " + result_name(allocated));
+  }
+  device.name(VK_OBJECT_TYPE_DEVICE_MEMORY, memory_.get(), name);
+  TRISECT_VK(vkBindBufferMemory(device.get(), buffer_.get(), memory_.get(), 0));
+  if (memory == Memory::host) {
+    void* address = nullptr;
+    TRISECT_VK(vkMapMemory(device.get(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &address));
+    mapped_ = {static_cast<std::byte*>(address), size};
+  }
+}
+
+}  // namespace trisect::gpu

@@ -1,0 +1,140 @@
+#include "vk/commands.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <limits>
+#include <string>
+
+#include "vk/result.h"
+
+namespace trisect::gpu {
+
+Commands::Commands(const Device& device) : device_(&device) {
+  VkCommandPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+  pool_info.queueFamilyIndex = device.family();
+  TRISECT_VK(vkCreateCommandPool(device.get(), &pool_info, nullptr, pool_.fill(device.get())));
+  VkCommandBufferAllocateInfo allocation{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+  allocation.commandPool = pool_.get();
+  allocation.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+  allocation.commandBufferCount = 1;
+  TRISECT_VK(vkAllocateCommandBuffers(device.get(), &allocation, &commands_));
+  const VkFenceCreateInfo fence_info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+  TRISECT_VK(vkCreateFence(device.get(), &fence_info, nullptr, fence_.fill(device.get())));
+  if (device.timestamp_bits() > 0) {
+    VkQueryPoolCreateInfo query_info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+    query_info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+    query_info.queryCount = 2;
+    TRISECT_VK(vkCreateQueryPool(device.get(), &query_info, nullptr, queries_.fill(device.get())));
+  }
+}
+
+void Commands::begin() {
+  TRISECT_VK(vkResetCommandPool(device_->get(), pool_.get(), 0));
+  VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+  info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+  TRISECT_VK(vkBeginCommandBuffer(commands_, &info));
+  if (queries_.get() != VK_NULL_HANDLE) {
+    vkCmdResetQueryPool(commands_, queries_.get(), 0, 2);
+    vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, queries_.get(), 0);
+  }
+}
+
+void Commands::dispatch(const Kernel& kernel, const BoundBuffers& buffers,
+                        std::span<const std::byte> push, uint32_t groups_x) {
+  if (push.size() != kernel.interface().push_size) {
+    throw Error("a kernel with " + std::to_string(kernel.interface().push_size) +
+                " bytes of push constants got " + std::to_string(push.size()));
+  }
+  // The kernel reads what copies and earlier dispatches wrote.
+  order_after_writes();
+  const VkDescriptorSet set = buffers.get();
+  vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
+  vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0, 1, &set, 0,
+                          nullptr);
+  if (!push.empty()) {
+    vkCmdPushConstants(commands_, kernel.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                       static_cast<uint32_t>(push.size()), push.data());
+  }
+  vkCmdDispatch(commands_, groups_x, 1, 1);
+}
+
+void Commands::copy(const Buffer& from, std::size_t from_offset, const Buffer& to,
+                    std::size_t to_offset, std::size_t size) {
+  // The source may have been written by a dispatch, the target read by one.
+  order_after_writes();
+  const VkBufferCopy region{from_offset, to_offset, size};
+  vkCmdCopyBuffer(commands_, from.get(), to.get(), 1, &region);
+}
+
+void Commands::order_after_writes() {
+  VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
+  barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
+  barrier.dstAccessMask = VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_SHADER_READ_BIT |
+                          VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT |
+                          VK_ACCESS_TRANSFER_WRITE_BIT;
+  const VkPipelineStageFlags stages =
+      VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
+  vkCmdPipelineBarrier(commands_, stages, stages, 0, 1, &barrier, 0, nullptr, 0, nullptr);
+}
+
+double Commands::submit_and_wait() {
+  // Whatever was copied to host memory is read there after the fence.
+  VkMemoryBarrier to_host{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
+  to_host.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+  to_host.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
+  vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
+                       &to_host, 0, nullptr, 0, nullptr);
+  if (queries_.get() != VK_NULL_HANDLE) {
+    vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries_.get(), 1);
+  }
+  TRISECT_VK(vkEndCommandBuffer(commands_));
+
+  const auto start = std::chrono::steady_clock::now();
+  VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+  submit.commandBufferCount = 1;
+  submit.pCommandBuffers = &commands_;
+  const VkFence fence = fence_.get();
+  TRISECT_VK(vkQueueSubmit(device_->queue(), 1, &submit, fence));
+  TRISECT_VK(
+      vkWaitForFences(device_->get(), 1, &fence, VK_TRUE, std::numeric_limits<uint64_t>::max()));
+  TRISECT_VK(vkResetFences(device_->get(), 1, &fence));
+  const std::chrono::duration<double, std::milli> elapsed =
+      std::chrono::steady_clock::now() - start;
+  if (queries_.get() == VK_NULL_HANDLE) return elapsed.count();
+
+  std::array<uint64_t, 2> ticks{};
+  TRISECT_VK(vkGetQueryPoolResults(device_->get(), queries_.get(), 0, 2, sizeof(ticks),
+                                   ticks.data(), sizeof(uint64_t),
+                                   VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
+  const uint32_t bits = device_->timestamp_bits();
+  const uint64_t mask = bits < 64 ? (uint64_t{1} << bits) - 1 : ~uint64_t{0};
+  const auto passed = static_cast<double>((ticks[1] - ticks[0]) & mask);
+  return passed * static_cast<double>(device_->limits().timestampPeriod) * 1e-6;
+}
+
+Staging::Staging(const Device& device, std::size_t size)
+    : buffer_(device, size, Memory::host, "staging") {}
+
+void Staging::upload(Commands& commands, std::span<const std::byte> from, const Buffer& to) {
+  for (std::size_t offset = 0; offset < from.size(); offset += buffer_.size()) {
+    const std::size_t size = std::min(buffer_.size(), from.size() - offset);
+    std::memcpy(buffer_.bytes().data(), from.data() + offset, size);
+    commands.begin();
+    commands.copy(buffer_, 0, to, offset, size);
+    commands.submit_and_wait();
+  }
+}
+
+void Staging::download(Commands& commands, const Buffer& from, std::span<std::byte> to) {
+  for (std::size_t offset = 0; offset < to.size(); offset += buffer_.size()) {
+    const std::size_t size = std::min(buffer_.size(), to.size() - offset);
+    commands.begin();
+    commands.copy(from, offset, buffer_, 0, size);
+    commands.submit_and_wait();
+    std::memcpy(to.data() + offset, buffer_.bytes().data(), size);
+  }
+}
+
+}  // namespace trisect::gpu
