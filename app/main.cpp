@@ -1,11 +1,13 @@
 // The program: parses the command line, runs a command, turns errors into sentences and exit codes.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <limits>
-#include <map>
+#include <new>
 #include <string>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/error.h"
@@ -22,50 +24,63 @@ int fail(int code, const std::string& message) {
 
 // Options that CLI11 hands over as text and options.h parses.
 struct RenderText {
+  std::string surface;
+  std::string solver;  // there is one
   std::string size;
   std::string eye;
   std::string target;
   std::string up;
 };
 
-void add_render(CLI::App& app, RenderOptions& options, RenderText& text) {
-  const std::map<std::string, uint> surfaces{
-      {"flat", SURFACE_FLAT}, {"phong", SURFACE_PHONG}, {"sphere", SURFACE_SPHERE}};
-  const std::map<std::string, int> solvers{{"bisect", 0}};
-  constexpr double largest = std::numeric_limits<float>::max();
+// Accepts a number from low to high, and no NaN.
+CLI::Validator number_from_to(double low, double high) {
+  return CLI::Validator(
+      [low, high](const std::string& text) -> std::string {
+        double value = 0.0;
+        if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return {};
+        return fmt::format("'{}' is not a number from {:g} to {:g}", text, low, high);
+      },
+      "");
+}
 
+CLI::Validator one_of(const std::vector<std::string>& names) {
+  return CLI::Validator(
+      [names](const std::string& text) -> std::string {
+        if (std::find(names.begin(), names.end(), text) != names.end()) return {};
+        return fmt::format("'{}' is not one of: {}", text, fmt::join(names, ", "));
+      },
+      "");
+}
+
+void add_render(CLI::App& app, RenderOptions& options, RenderText& text) {
   CLI::App* render = app.add_subcommand("render", "Render a model to an image file");
+  // Of an option that is given twice the last one counts.
+  render->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   render->add_option("MODEL", options.model, "OBJ file")->required();
   render
       ->add_option("-o,--output", options.output,
-                   "Image to write: FILE.png (8-bit sRGB) or FILE.exr "
-                   "(linear float with AOVs)")
+                   "Image to write: .png (8-bit sRGB) or .exr (linear float, with AOVs)")
       ->required()
       ->type_name("FILE");
   render->add_option("--size", text.size, "Image size in pixels, default 800x600")
       ->type_name("WxH");
   render
-      ->add_option("--surface", options.surface,
-                   "How triangles are curved: flat, phong or sphere, "
-                   "default phong")
-      ->transform(CLI::CheckedTransformer(surfaces).description(""))
+      ->add_option("--surface", text.surface,
+                   "How triangles are curved: flat, phong or sphere, default phong")
+      ->check(one_of({"flat", "phong", "sphere"}))
       ->type_name("NAME");
   render
       ->add_option("--alpha", options.alpha,
-                   "phong: from 0 (flat) to 1 (full projection) and beyond, "
-                   "default 0.65")
-      ->check(CLI::Range(-1000.0, 1000.0).description(""))
+                   "phong: from 0 (flat) to 1 (full projection) and beyond, default 0.65")
+      ->check(number_from_to(-1000.0, 1000.0))
       ->type_name("A");
-  render
-      ->add_option_function<std::string>(
-          "--solver", [](const std::string&) {}, "How roots are found: bisect, the default")
-      ->check(CLI::IsMember(solvers).description(""))
+  render->add_option("--solver", text.solver, "How roots are found: bisect, the default")
+      ->check(one_of({"bisect"}))
       ->type_name("NAME");
   render
       ->add_option("--rank", options.rank,
-                   "bisect: resolution of 2^-N of a triangle's chord, 1 to 60, "
-                   "default 10")
-      ->check(CLI::Range(1, 60).description(""))
+                   "bisect: resolves a triangle's chord to 2^-N, 1 to 60, default 10")
+      ->check(number_from_to(1, 60))
       ->type_name("N");
   render->add_option("--eye", text.eye, "Position of the camera, default: frames the model")
       ->type_name("X,Y,Z");
@@ -75,31 +90,27 @@ void add_render(CLI::App& app, RenderOptions& options, RenderText& text) {
   render
       ->add_option("--fov", options.fov,
                    "Its vertical field of view in degrees, 1 to 170, default 45")
-      ->check(CLI::Range(1.0, 170.0).description(""))
+      ->check(number_from_to(1.0, 170.0))
       ->type_name("DEG");
   render
       ->add_option("--crease", options.crease,
-                   "Rebuild the normals, sharp where faces meet at more than "
-                   "this angle, 0 to 180")
-      ->check(CLI::Range(0.0, 180.0).description(""))
+                   "Rebuild the normals, sharp where faces meet at more than this angle, 0 to 180")
+      ->check(number_from_to(0.0, 180.0))
       ->type_name("DEG");
   render
       ->add_option("--device", options.device,
-                   "Vulkan device, by its number in `trisect devices` or a "
-                   "part of its name")
+                   "Vulkan device: its number in `trisect devices` or a part of its name")
       ->type_name("D");
   render->add_flag("--validation", options.validation,
-                   "Run under the Vulkan validation layer, fail on any "
-                   "message");
+                   "Run under the Vulkan validation layer, fail on any message");
   render->add_option("--runs", options.runs, "Frames to time after a warm-up, default 1")
-      ->check(CLI::Range(1, 1000000).description(""))
+      ->check(number_from_to(1, 1e6))
       ->type_name("N");
   render->add_option("--stats", options.stats, "Write the figures as JSON")->type_name("FILE.json");
-  static_cast<void>(largest);
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Ray-traces triangle models as smooth curved surfaces in a Vulkan compute shader.",
+  CLI::App app("Ray-traces triangle models as smooth curved surfaces, in a Vulkan compute shader.",
                "trisect");
   app.set_version_flag("--version", std::string("trisect ") + TRISECT_VERSION);
   app.require_subcommand(1);
@@ -107,6 +118,13 @@ int run(int argc, char** argv) {
   RenderText text;
   add_render(app, options, text);
   app.add_subcommand("devices", "List the Vulkan devices, and what those that cannot be used lack");
+  app.footer(
+      "Exit codes: 0 done, 2 usage, 3 bad input, 4 no usable device, 70 internal error, "
+      "130 interrupted.");
+  const auto is_named = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
+  if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(is_named).empty()) {
+    throw UsageError(fmt::format("'{}' is not a command (see trisect --help)", argv[1]));
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -114,6 +132,8 @@ int run(int argc, char** argv) {
     return fail(exit_usage, std::string(error.what()) + " (see trisect --help)");
   }
   if (app.got_subcommand("devices")) return list_devices();
+  if (text.surface == "flat") options.surface = SURFACE_FLAT;
+  if (text.surface == "sphere") options.surface = SURFACE_SPHERE;
   if (!text.size.empty()) parse_size("--size", text.size, options.width, options.height);
   if (!text.eye.empty()) options.eye = parse_triple("--eye", text.eye);
   if (!text.target.empty()) options.target = parse_triple("--target", text.target);

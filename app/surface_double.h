@@ -11,15 +11,16 @@ using vec2 = glm::dvec2;
 using vec3 = glm::dvec3;
 using vec4 = glm::dvec4;
 
+#include "shaders/shared.h"
+
 #define real double
 #define OUT(T) T&
-// The shaders are plain functions; here they must be inline, and not all of them are called.
+// Plain functions in a header: each translation unit has its own, and not all of them are called.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wfloat-equal"
 namespace {
 #include "shaders/linear.glsl"
-#include "shaders/shared.h"
 #include "shaders/surface.glsl"
 #include "shaders/thesis_field.glsl"
 }  // namespace

@@ -2,7 +2,8 @@
 // triangle's offset copy through that point and the signed distance to the surface along the shell
 // direction, positive outside. The functions keep the listings' names. Deviations, none of which moves the
 // zero set of a well-formed patch:
-//  - the listings' direction normalize(triPos - pos) * sign(height) is 0/0 at height 0; its limit is used there;
+//  - the listings' direction normalize(triPos - pos) * sign(height) is 0/0 on the base triangle; its
+//    limit is used there;
 //  - listing 3.6 works with radii 1/c, the curvature c clamped away from 0, which in single precision
 //    leaves errors of 5e-2 on a flat patch; SphereDist here takes c and divides by it only where it must;
 //  - where the line misses a sphere, rsi() returns 1e5; here the discriminant is taken as 0.
@@ -29,7 +30,9 @@ real PlaneDist(vec3 pos, vec3 dir, vec3 origin, vec3 n) {
 
 // The listings' dir: from pos toward the base triangle if above it, away if below.
 vec3 inward(vec3 pos, vec3 triPos, real height, vec3 D) {
-  return height == real(0.0) ? -normalize3(D) : normalize3(triPos - pos) * sign(height);
+  vec3 toward = triPos - pos;
+  real size = length3(toward);
+  return height == real(0.0) || size == real(0.0) ? -normalize3(D) : toward * (sign(height) / size);
 }
 
 vec4 PhongField(Triangle tri, vec3 pos, real alpha) {

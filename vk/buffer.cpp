@@ -11,7 +11,12 @@ Buffer::Buffer(const Device& device, std::size_t size, Memory memory, const std:
   info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
                VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
   info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
-  TRISECT_VK(vkCreateBuffer(device.get(), &info, nullptr, buffer_.fill(device.get())));
+  const auto require = [&](VkResult result) {
+    if (result == VK_SUCCESS) return;
+    throw Error("device " + device.report().name + " has no " + std::to_string(size >> 20U) +
+                " MiB for the " + name + " buffer: " + result_name(result));
+  };
+  require(vkCreateBuffer(device.get(), &info, nullptr, buffer_.fill(device.get())));
   device.name(VK_OBJECT_TYPE_BUFFER, buffer_.get(), name);
 
   VkMemoryRequirements needs{};
@@ -25,12 +30,7 @@ Buffer::Buffer(const Device& device, std::size_t size, Memory memory, const std:
                 needs.memoryTypeBits,
                 VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
                 VK_MEMORY_PROPERTY_HOST_CACHED_BIT);
-  const VkResult allocated =
-      vkAllocateMemory(device.get(), &allocation, nullptr, memory_.fill(device.get()));
-  if (allocated != VK_SUCCESS) {
-    throw Error("device " + device.report().name + " has no " + std::to_string(size >> 20U) +
-                " MiB for the " + name + " buffer: " + result_name(allocated));
-  }
+  require(vkAllocateMemory(device.get(), &allocation, nullptr, memory_.fill(device.get())));
   device.name(VK_OBJECT_TYPE_DEVICE_MEMORY, memory_.get(), name);
   TRISECT_VK(vkBindBufferMemory(device.get(), buffer_.get(), memory_.get(), 0));
   if (memory == Memory::host) {

@@ -1,0 +1,120 @@
+// The Vulkan layer on a real device.
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <vector>
+
+#include "app/kernels.h"
+#include "tests/support/gpu.h"
+#include "vk/commands.h"
+#include "vk/result.h"
+
+namespace trisect::gpu {
+namespace {
+
+class GpuLayer : public test::GpuTest {};
+
+TEST_F(GpuLayer, ValidationSpeaksUpWhenACallIsWrong) {
+  // The negative control of every other GPU test: a buffer of no bytes is against the
+  // specification.
+  const Device& device = test::validated_device();
+  VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+  info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+  VkBuffer buffer = VK_NULL_HANDLE;
+  vkCreateBuffer(device.get(), &info, nullptr, &buffer);
+  if (buffer != VK_NULL_HANDLE) vkDestroyBuffer(device.get(), buffer, nullptr);
+  const std::vector<std::string> messages = test::validated_instance().log().messages();
+  test::validated_instance().log().clear();
+  ASSERT_FALSE(messages.empty());
+  EXPECT_NE(messages[0].find("VUID-VkBufferCreateInfo-size-00912"), std::string::npos)
+      << messages[0];
+}
+
+TEST_F(GpuLayer, SynchronisationValidationMissesNoBarrier) {
+  // And the second half of it: two copies into the same bytes without Commands' barrier between
+  // them.
+  const Device& device = test::validated_device();
+  const Buffer a(device, 64, Memory::device, "a");
+  const Buffer b(device, 64, Memory::device, "b");
+  Owned<VkCommandPool, vkDestroyCommandPool> pool;
+  VkCommandPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+  pool_info.queueFamilyIndex = device.family();
+  TRISECT_VK(vkCreateCommandPool(device.get(), &pool_info, nullptr, pool.fill(device.get())));
+  VkCommandBufferAllocateInfo allocation{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+  allocation.commandPool = pool.get();
+  allocation.commandBufferCount = 1;
+  VkCommandBuffer commands = VK_NULL_HANDLE;
+  TRISECT_VK(vkAllocateCommandBuffers(device.get(), &allocation, &commands));
+  const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+  TRISECT_VK(vkBeginCommandBuffer(commands, &begin));
+  const VkBufferCopy region{0, 0, 64};
+  vkCmdCopyBuffer(commands, a.get(), b.get(), 1, &region);
+  vkCmdCopyBuffer(commands, a.get(), b.get(), 1, &region);
+  TRISECT_VK(vkEndCommandBuffer(commands));
+  const std::vector<std::string> messages = test::validated_instance().log().messages();
+  test::validated_instance().log().clear();
+  ASSERT_FALSE(messages.empty());
+  EXPECT_NE(messages[0].find("SYNC-HAZARD-WRITE-AFTER-WRITE"), std::string::npos) << messages[0];
+}
+
+TEST_F(GpuLayer, BytesComeBackFromTheDevice) {
+  const Device& device = test::validated_device();
+  Commands commands(device);
+  std::vector<uint32_t> sent(10007);
+  std::iota(sent.begin(), sent.end(), 1U);
+  const Buffer buffer(device, sent.size() * sizeof(uint32_t), Memory::device, "numbers");
+  // In one piece, and in pieces that do not divide the whole.
+  for (const std::size_t piece : {std::size_t{1} << 20U, std::size_t{4096}}) {
+    Staging staging(device, piece);
+    staging.upload(commands, std::as_bytes(std::span(sent)), buffer);
+    std::vector<uint32_t> received(sent.size());
+    staging.download(commands, buffer, std::as_writable_bytes(std::span(received)));
+    EXPECT_EQ(received, sent);
+  }
+}
+
+TEST_F(GpuLayer, ChecksWhatADispatchIsGiven) {
+  const Device& device = test::validated_device();
+  const Kernel kernel(device, kTraceListSpirv, trace_list_interface(), {}, "trace_list");
+  const Buffer buffer(device, 1024, Memory::device, "scratch");
+  EXPECT_THROW(BoundBuffers(device, kernel, {&buffer}), Error);
+  const BoundBuffers bound(device, kernel, {&buffer, &buffer, &buffer, &buffer});
+  Commands commands(device);
+  commands.begin();
+  EXPECT_THROW(commands.dispatch(kernel, bound, {}, 1), Error);
+  commands.submit_and_wait();
+}
+
+TEST_F(GpuLayer, SaysWhatCouldNotBeAllocated) {
+  try {
+    const Buffer buffer(test::validated_device(), std::size_t{1} << 50U, Memory::device, "huge");
+    FAIL() << "a petabyte was allocated";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("huge"), std::string::npos) << error.what();
+  }
+  // The layer warns of such a request; that is not what this test is about.
+  test::validated_instance().log().clear();
+}
+
+TEST_F(GpuLayer, ReportsTheDevicesOfTheInstance) {
+  const std::vector<DeviceReport> reports = test::validated_instance().reports();
+  ASSERT_FALSE(reports.empty());
+  for (const DeviceReport& report : reports) {
+    EXPECT_FALSE(report.name.empty());
+    EXPECT_FALSE(report.type.empty());
+    EXPECT_FALSE(report.driver.empty());
+  }
+  EXPECT_GT(test::validated_device().limits().maxStorageBufferRange, 0U);
+}
+
+TEST(Result, IsNamedInTheErrorWithItsCall) {
+  try {
+    check(VK_ERROR_DEVICE_LOST, "vkQueueSubmit(queue, 1, &submit, fence)");
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "vkQueueSubmit failed: ErrorDeviceLost");
+  }
+}
+
+}  // namespace
+}  // namespace trisect::gpu

@@ -1,0 +1,132 @@
+#include "app/image_file.h"
+
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <fstream>
+
+#include "app/error.h"
+#include "tests/support/exr_reader.h"
+#include "tests/support/temporary_folder.h"
+
+namespace trisect {
+namespace {
+
+// Five by three pixels, every number of every pixel different.
+Frame sample(bool aovs) {
+  Frame frame;
+  frame.width = 5;
+  frame.height = 3;
+  for (uint32_t i = 0; i < 15; ++i) {
+    const float x = static_cast<float>(i) / 15.0F;
+    frame.colors.emplace_back(x, 1.0F - x, x * x, i % 2 == 0 ? 1.0F : 0.0F);
+    if (!aovs) continue;
+    PixelAovs aov{};
+    aov.normal_z = vec4(x, x + 1.0F, x + 2.0F, x + 3.0F);
+    aov.geometric_u = vec4(x + 4.0F, x + 5.0F, x + 6.0F, x + 7.0F);
+    aov.v = x + 8.0F;
+    aov.triangle = i == 3 ? NO_TRIANGLE : 1000000U + i;
+    frame.aovs.push_back(aov);
+  }
+  return frame;
+}
+
+TEST(ImageFormat, FollowsTheEnding) {
+  EXPECT_EQ(image_format("a/b.png"), ImageFormat::png);
+  EXPECT_EQ(image_format("b.EXR"), ImageFormat::exr);
+  for (const char* name : {"b.jpg", "b", "png", ".png"}) {
+    EXPECT_THROW(image_format(name), UsageError) << name;
+  }
+}
+
+TEST(Srgb, DecodesTheStandardsValues) {
+  EXPECT_EQ(linear_from_srgb(0.0F), 0.0F);
+  EXPECT_EQ(linear_from_srgb(1.0F), 1.0F);
+  EXPECT_NEAR(linear_from_srgb(0.04F), 0.04F / 12.92F, 1e-9F);
+  // Half grey: 0.2140411 in IEC 61966-2-1's function.
+  EXPECT_NEAR(linear_from_srgb(0.5F), 0.2140411F, 1e-7F);
+}
+
+TEST(WritePng, WritesTheFramesBytesRowByRow) {
+  const test::TemporaryFolder folder;
+  const Frame frame = sample(false);
+  AtomicFile file(folder / "a.png");
+  write_png(frame, file);
+  file.commit();
+
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  ASSERT_NE(png_image_begin_read_from_file(&image, (folder / "a.png").c_str()), 0);
+  EXPECT_EQ(image.width, 5U);
+  EXPECT_EQ(image.height, 3U);
+  // Marked as sRGB: no flag says that it is not.
+  EXPECT_EQ(image.flags & PNG_IMAGE_FLAG_COLORSPACE_NOT_sRGB, 0U);
+  image.format = PNG_FORMAT_RGB;
+  std::vector<uint8_t> bytes(PNG_IMAGE_SIZE(image));
+  ASSERT_NE(png_image_finish_read(&image, nullptr, bytes.data(), 0, nullptr), 0);
+  for (std::size_t i = 0; i < 15; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const float exact = frame.colors[i][k] * 255.0F;
+      EXPECT_NEAR(static_cast<float>(bytes[3 * i + static_cast<std::size_t>(k)]), exact, 0.501F);
+    }
+  }
+}
+
+TEST(WriteExr, KeepsEveryChannel) {
+  const test::TemporaryFolder folder;
+  const Frame frame = sample(true);
+  AtomicFile file(folder / "a.exr");
+  write_exr(frame, file);
+  file.commit();
+
+  const std::map<std::string, std::string> expected{
+      {"R", "float"},   {"G", "float"},   {"B", "float"},   {"A", "float"},   {"Z", "float"},
+      {"N.X", "float"}, {"N.Y", "float"}, {"N.Z", "float"}, {"G.X", "float"}, {"G.Y", "float"},
+      {"G.Z", "float"}, {"U", "float"},   {"V", "float"},   {"patch", "uint"}};
+  EXPECT_EQ(test::exr_channels(folder / "a.exr"), expected);
+
+  const Frame read = test::read_exr(folder / "a.exr");
+  ASSERT_EQ(read.width, 5U);
+  ASSERT_EQ(read.height, 3U);
+  for (std::size_t i = 0; i < 15; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_EQ(read.colors[i][k], linear_from_srgb(frame.colors[i][k]));
+    }
+    EXPECT_EQ(read.colors[i].w, frame.colors[i].w);
+    EXPECT_EQ(read.aovs[i].normal_z, frame.aovs[i].normal_z);
+    EXPECT_EQ(read.aovs[i].geometric_u, frame.aovs[i].geometric_u);
+    EXPECT_EQ(read.aovs[i].v, frame.aovs[i].v);
+    EXPECT_EQ(read.aovs[i].triangle, frame.aovs[i].triangle);
+  }
+}
+
+TEST(AtomicFile, AppearsWholeOrNotAtAll) {
+  const test::TemporaryFolder folder;
+  const auto entries = [&] {
+    return std::distance(std::filesystem::directory_iterator(folder.path()), {});
+  };
+  {
+    const AtomicFile file(folder / "a.txt");
+    file.write("half");
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.txt"));
+  }
+  EXPECT_EQ(entries(), 0);
+  {
+    AtomicFile file(folder / "a.txt");
+    file.write("whole");
+    file.commit();
+  }
+  EXPECT_EQ(entries(), 1);
+  std::string text;
+  std::ifstream(folder / "a.txt") >> text;
+  EXPECT_EQ(text, "whole");
+}
+
+TEST(AtomicFile, RefusesAtOnceWhatCannotBeWritten) {
+  const test::TemporaryFolder folder;
+  EXPECT_THROW(AtomicFile(folder / "no-such-folder" / "a.txt"), InputError);
+  EXPECT_THROW(AtomicFile(folder.path()), InputError);
+}
+
+}  // namespace
+}  // namespace trisect

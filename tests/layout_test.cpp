@@ -1,0 +1,141 @@
+// The compiled kernel, read back with SPIRV-Cross: its buffers lie as C++ lays them out, and its
+// bindings are those that app/kernels.h gives the Vulkan layer.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <map>
+#include <spirv_cross/spirv_cross.hpp>
+#include <string>
+
+#include "app/kernels.h"
+
+namespace trisect {
+namespace {
+
+using spirv_cross::Compiler;
+using Offsets = std::map<std::string, std::size_t>;
+
+Compiler reflect() {
+  return Compiler(std::vector<uint32_t>(kTraceListSpirv.begin(), kTraceListSpirv.end()));
+}
+
+Offsets offsets_of(const Compiler& compiler, const spirv_cross::SPIRType& type) {
+  Offsets offsets;
+  for (uint32_t i = 0; i < type.member_types.size(); ++i) {
+    offsets[compiler.get_member_name(type.self, i)] = compiler.type_struct_member_offset(type, i);
+  }
+  return offsets;
+}
+
+// The structure that a block holds as its only member, and the size of one, with array padding.
+struct Held {
+  Offsets offsets;
+  std::size_t stride;
+};
+Held held_by(const Compiler& compiler, const spirv_cross::Resource& block) {
+  const spirv_cross::SPIRType& outer = compiler.get_type(block.base_type_id);
+  const spirv_cross::SPIRType& inner = compiler.get_type(outer.member_types[0]);
+  const std::size_t stride = inner.array.empty()
+                                 ? compiler.get_declared_struct_size(inner)
+                                 : compiler.type_struct_member_array_stride(outer, 0);
+  // For an array of vec4 the element is no structure.
+  return {inner.basetype == spirv_cross::SPIRType::Struct ? offsets_of(compiler, inner) : Offsets{},
+          stride};
+}
+
+const spirv_cross::Resource& with_binding(
+    const Compiler& compiler, const spirv_cross::SmallVector<spirv_cross::Resource>& resources,
+    uint32_t binding) {
+  for (const spirv_cross::Resource& resource : resources) {
+    if (compiler.get_decoration(resource.id, spv::DecorationBinding) == binding) return resource;
+  }
+  throw std::runtime_error("no resource with binding " + std::to_string(binding));
+}
+
+TEST(Layout, TriangleIsTheThesissIn192Bytes) {
+  const Compiler compiler = reflect();
+  const auto resources = compiler.get_shader_resources();
+  const Held held =
+      held_by(compiler, with_binding(compiler, resources.storage_buffers, BINDING_TRIANGLES));
+  EXPECT_EQ(held.stride, sizeof(Triangle));
+  EXPECT_EQ(held.offsets, (Offsets{{"Position", offsetof(Triangle, Position)},
+                                   {"Normal", offsetof(Triangle, Normal)},
+                                   {"TriNormal", offsetof(Triangle, TriNormal)},
+                                   {"NormDot", offsetof(Triangle, NormDot)},
+                                   {"Domain", offsetof(Triangle, Domain)},
+                                   {"VertexData", offsetof(Triangle, VertexData)}}));
+}
+
+TEST(Layout, TraceParams) {
+  const Compiler compiler = reflect();
+  const auto resources = compiler.get_shader_resources();
+  const Held held =
+      held_by(compiler, with_binding(compiler, resources.uniform_buffers, BINDING_PARAMS));
+  EXPECT_EQ(held.stride, sizeof(TraceParams));
+  EXPECT_EQ(held.offsets, (Offsets{{"eye", offsetof(TraceParams, eye)},
+                                   {"ray_corner", offsetof(TraceParams, ray_corner)},
+                                   {"ray_dx", offsetof(TraceParams, ray_dx)},
+                                   {"ray_dy", offsetof(TraceParams, ray_dy)},
+                                   {"light", offsetof(TraceParams, light)},
+                                   {"grid", offsetof(TraceParams, grid)},
+                                   {"width", offsetof(TraceParams, width)},
+                                   {"height", offsetof(TraceParams, height)},
+                                   {"triangle_count", offsetof(TraceParams, triangle_count)},
+                                   {"rank", offsetof(TraceParams, rank)},
+                                   {"alpha", offsetof(TraceParams, alpha)},
+                                   {"resolution", offsetof(TraceParams, resolution)},
+                                   {"min_delta", offsetof(TraceParams, min_delta)},
+                                   {"padding0", offsetof(TraceParams, padding0)}}));
+}
+
+TEST(Layout, OutputsAndPushConstants) {
+  const Compiler compiler = reflect();
+  const auto resources = compiler.get_shader_resources();
+  EXPECT_EQ(
+      held_by(compiler, with_binding(compiler, resources.storage_buffers, BINDING_COLOR)).stride,
+      sizeof(vec4));
+  const Held aovs =
+      held_by(compiler, with_binding(compiler, resources.storage_buffers, BINDING_AOVS));
+  EXPECT_EQ(aovs.stride, sizeof(PixelAovs));
+  EXPECT_EQ(aovs.offsets, (Offsets{{"normal_z", offsetof(PixelAovs, normal_z)},
+                                   {"geometric_u", offsetof(PixelAovs, geometric_u)},
+                                   {"v", offsetof(PixelAovs, v)},
+                                   {"triangle", offsetof(PixelAovs, triangle)},
+                                   {"padding0", offsetof(PixelAovs, padding0)},
+                                   {"padding1", offsetof(PixelAovs, padding1)}}));
+  ASSERT_EQ(resources.push_constant_buffers.size(), 1U);
+  const Held push = held_by(compiler, resources.push_constant_buffers[0]);
+  EXPECT_EQ(push.stride, sizeof(TilePush));
+  EXPECT_EQ(push.offsets, (Offsets{{"first_group", offsetof(TilePush, first_group)},
+                                   {"first_row", offsetof(TilePush, first_row)}}));
+}
+
+TEST(Layout, InterfaceIsTheKernels) {
+  const Compiler compiler = reflect();
+  const auto resources = compiler.get_shader_resources();
+  std::map<uint32_t, VkDescriptorType> in_kernel;
+  for (const auto& buffer : resources.uniform_buffers) {
+    in_kernel[compiler.get_decoration(buffer.id, spv::DecorationBinding)] =
+        VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+  }
+  for (const auto& buffer : resources.storage_buffers) {
+    in_kernel[compiler.get_decoration(buffer.id, spv::DecorationBinding)] =
+        VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+  }
+  std::map<uint32_t, VkDescriptorType> in_interface;
+  const gpu::KernelInterface interface = trace_list_interface();
+  for (const gpu::Binding& binding : interface.bindings)
+    in_interface[binding.binding] = binding.type;
+  EXPECT_EQ(in_kernel, in_interface);
+  EXPECT_EQ(interface.push_size, sizeof(TilePush));
+
+  std::map<uint32_t, std::string> constants;
+  for (const auto& constant : compiler.get_specialization_constants()) {
+    constants[constant.constant_id] = compiler.get_name(constant.id);
+  }
+  EXPECT_EQ(constants, (std::map<uint32_t, std::string>{{CONSTANT_SURFACE, "SURFACE"},
+                                                        {CONSTANT_AOVS, "AOVS"}}));
+}
+
+}  // namespace
+}  // namespace trisect

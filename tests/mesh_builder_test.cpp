@@ -1,0 +1,132 @@
+#include "app/mesh_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/error.h"
+
+namespace trisect {
+namespace {
+
+using glm::dvec3;
+
+BuiltMesh build(const std::string& text, std::optional<double> crease = std::nullopt) {
+  return build_mesh(parse_obj(text, "model.obj"), "model.obj", crease);
+}
+
+// A cube of quadrilaterals without normals, seen from outside.
+constexpr const char* kCube =
+    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+    "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+// Rounding of a few double-precision operations on numbers of order 1.
+constexpr double kRounding = 1e-14;
+
+TEST(BuildMesh, ReportsAClosedCube) {
+  const BuiltMesh built = build(kCube);
+  EXPECT_EQ(built.report.triangles, 12U);
+  EXPECT_EQ(built.report.vertices, 8U);
+  EXPECT_EQ(built.report.normals, NormalSource::welded);
+  EXPECT_EQ(built.report.degenerate_dropped, 0U);
+  EXPECT_EQ(built.report.hard_edges, 0U);
+  EXPECT_EQ(built.report.open_edges, 0U);
+  EXPECT_EQ(built.report.non_manifold_edges, 0U);
+  EXPECT_EQ(built.report.flipped_edges, 0U);
+}
+
+TEST(BuildMesh, WeighsNormalsByAngle) {
+  // At a cube's corner three faces meet at right angles, one or two triangles each: weighted by
+  // angle, and only so, each face counts the same.
+  const BuiltMesh built = build(kCube);
+  for (const MeshTriangle& t : built.mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const dvec3 outward = glm::normalize(built.mesh.positions[t.vertex[i]] - dvec3(0.5));
+      EXPECT_LT(glm::distance(built.mesh.normals[t.normal[i]], outward), kRounding);
+    }
+  }
+}
+
+TEST(BuildMesh, WeldsPositionsThatAreWrittenTwice) {
+  // Two triangles that share an edge only by value, 0 and -0 among them.
+  const BuiltMesh built =
+      build("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nv 1 -0 0\nv 1 1 1\nv -0 1 0\nf 4 5 6\n");
+  EXPECT_EQ(built.report.vertices, 4U);
+  EXPECT_EQ(built.report.open_edges, 4U);
+  EXPECT_EQ(built.report.hard_edges, 0U);
+}
+
+TEST(BuildMesh, KeepsTheFilesNormalsAtUnitLength) {
+  const BuiltMesh built =
+      build("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 5\nvn 3e-200 0 4e-200\nf 1//1 2//2 3//1\n");
+  EXPECT_EQ(built.report.normals, NormalSource::file);
+  const MeshTriangle& t = built.mesh.triangles[0];
+  EXPECT_LT(glm::distance(built.mesh.normals[t.normal[0]], dvec3(0, 0, 1)), kRounding);
+  EXPECT_LT(glm::distance(built.mesh.normals[t.normal[1]], dvec3(0.6, 0, 0.8)), kRounding);
+}
+
+TEST(BuildMesh, FillsInMissingAndZeroNormals) {
+  const BuiltMesh built = build("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 1\nvn 0 0 0\nf 1//1 2 3//2\n");
+  EXPECT_EQ(built.report.normals, NormalSource::mixed);
+  const MeshTriangle& t = built.mesh.triangles[0];
+  EXPECT_LT(glm::distance(built.mesh.normals[t.normal[1]], dvec3(0, 0, 1)), kRounding);
+  EXPECT_LT(glm::distance(built.mesh.normals[t.normal[2]], dvec3(0, 0, 1)), kRounding);
+}
+
+TEST(BuildMesh, DropsTrianglesWithoutAreaAndKeepsSlivers) {
+  const BuiltMesh built = build(
+      "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1e-6 0\n"
+      "f 1 2 3\nf 1 1 2\nf 1 2 4\nf 1 2 5\n");
+  EXPECT_EQ(built.report.degenerate_dropped, 2U);
+  EXPECT_EQ(built.report.triangles, 2U);
+  EXPECT_THROW(build("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"), InputError);
+}
+
+TEST(BuildMesh, CountsHardOpenNonManifoldAndFlippedEdges) {
+  // Two triangles with different normals along their common edge.
+  const BuiltMesh hard = build(
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvn 0 0 1\nvn 0 1 1\nf 1//1 2//1 3//1\nf 2//2 4//1 "
+      "3//1\n");
+  EXPECT_EQ(hard.report.hard_edges, 1U);
+  EXPECT_EQ(hard.report.open_edges, 4U);
+  // Three triangles on the edge 1-2.
+  const BuiltMesh fin =
+      build("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\n");
+  EXPECT_EQ(fin.report.non_manifold_edges, 1U);
+  EXPECT_EQ(fin.report.open_edges, 6U);
+  // The second triangle is wound the other way, against its normals.
+  const BuiltMesh flipped =
+      build("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\nf 3//1 4//1 2//1\n");
+  EXPECT_EQ(flipped.report.flipped_edges, 1U);
+  EXPECT_EQ(flipped.report.normals_behind, 3U);
+}
+
+TEST(BuildMesh, CreaseAngleSplitsOrJoinsNormals) {
+  EXPECT_EQ(build(kCube, 89.0).report.hard_edges, 12U);
+  EXPECT_EQ(build(kCube, 91.0).report.hard_edges, 0U);
+  // The file's own normals give way.
+  const std::string sheet = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 1\nf 1//1 2//1 3//1\n";
+  const BuiltMesh rebuilt = build(sheet, 30.0);
+  EXPECT_EQ(rebuilt.report.normals, NormalSource::welded);
+  EXPECT_EQ(rebuilt.mesh.normals[rebuilt.mesh.triangles[0].normal[0]], dvec3(0, 0, 1));
+}
+
+TEST(BuildMesh, KeepsEveryTriangleOfConvexAndConcavePolygons) {
+  const BuiltMesh built = build(
+      "v 0 2 0\nv -1 -1 0\nv 0 0 0\nv 1 -1 0\nv 3 0 0\nv 4 0 0\nv 4 1 0\nv 3.5 2 0\nv 3 1 0\n"
+      "g a\nf 1 2 3 4\ng b\nf 5 6 7 8 9\n");
+  ASSERT_EQ(built.report.triangles, 5U);
+  for (const MeshTriangle& t : built.mesh.triangles) {
+    const auto& p = built.mesh.positions;
+    EXPECT_GT(glm::cross(p[t.vertex[1]] - p[t.vertex[0]], p[t.vertex[2]] - p[t.vertex[0]]).z, 0.0);
+  }
+}
+
+TEST(BuildMesh, DescribesItselfInOneLine) {
+  EXPECT_EQ(describe(build(kCube).report),
+            "12 triangles, 8 vertices, normals angle-weighted over welded vertices, 0 degenerate "
+            "triangles dropped, 0 hard edges, 0 open edges, 0 non-manifold edges");
+}
+
+}  // namespace
+}  // namespace trisect

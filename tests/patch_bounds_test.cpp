@@ -1,0 +1,95 @@
+// The bounds are proven in patch_bounds.h; these tests would find a mistake in the proof or in its
+// code.
+#include "app/patch_bounds.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "app/bake.h"
+#include "tests/support/scenes.h"
+
+namespace trisect {
+namespace {
+
+using glm::dvec3;
+
+// The farthest that a point of the patch lies from the centre of its Domain, over the radius.
+double reach(uint surface, const Triangle& baked, double alpha) {
+  const in_double::Triangle tri = test::widen(baked);
+  double farthest = 0.0;
+  for (const dvec3& w : test::weight_grid(24)) {
+    const dvec3 point = in_double::surface_point(surface, tri, w, alpha);
+    const double distance = glm::distance(point, dvec3(tri.Domain)) / tri.Domain.w;
+    // A normal at right angles to the face leaves the surface undefined (NaN) there.
+    if (distance > farthest) farthest = distance;
+  }
+  return farthest;
+}
+
+struct Case {
+  uint surface;
+  double alpha;
+};
+const std::vector<Case> kCases{{SURFACE_FLAT, 0.0},   {SURFACE_PHONG, 0.0}, {SURFACE_PHONG, 0.65},
+                               {SURFACE_PHONG, 1.0},  {SURFACE_PHONG, 2.0}, {SURFACE_PHONG, -1.0},
+                               {SURFACE_PHONG, 50.0}, {SURFACE_SPHERE, 0.0}};
+
+TEST(PatchBounds, ContainEveryPatchOfEveryAsset) {
+  for (const std::string& name : test::asset_names()) {
+    const Mesh mesh = test::load_asset(name);
+    for (const Case& c : kCases) {
+      for (const Triangle& tri : bake(mesh, {c.surface, c.alpha}).triangles) {
+        ASSERT_LE(reach(c.surface, tri, c.alpha), 1.0) << name << " surface " << c.surface;
+      }
+    }
+  }
+}
+
+TEST(PatchBounds, ContainRandomPatchesWithNormalsInEveryDirection) {
+  std::mt19937_64 random(4);
+  for (int i = 0; i < 3000; ++i) {
+    // Up to 180 degrees off the face: folded shells, displacements at their limit.
+    const test::RandomPatch patch = test::random_patch(random, i % 3 == 0 ? 180.0 : 85.0);
+    for (const Case& c : kCases) {
+      const Triangle tri = bake_triangle(patch.positions, patch.normals, {c.surface, c.alpha});
+      ASSERT_LE(reach(c.surface, tri, c.alpha), 1.0) << "patch " << i << " surface " << c.surface;
+    }
+  }
+}
+
+TEST(PatchBounds, AreFiniteForNormalsAtRightAnglesToTheFace) {
+  for (const uint surface : {SURFACE_FLAT, SURFACE_PHONG, SURFACE_SPHERE}) {
+    const Triangle tri =
+        bake_triangle({dvec3(0, 0, 0), dvec3(1, 0, 0), dvec3(0, 1, 0)},
+                      {dvec3(1, 0, 0), dvec3(0, 0, 1), dvec3(0, 0, -1)}, {surface, 0.65});
+    EXPECT_GT(tri.Domain.w, 0.7F);
+    EXPECT_LT(tri.Domain.w, 3.0F);
+  }
+}
+
+TEST(PatchBounds, AreTight) {
+  // On the sphere of 20 triangles the circle through the vertices has radius 0.607 and the sphere
+  // bulges by 0.205.
+  for (const Case& c :
+       {Case{SURFACE_FLAT, 0.0}, Case{SURFACE_PHONG, 0.65}, Case{SURFACE_SPHERE, 0.0}}) {
+    const Triangle tri = bake(test::load_asset("sphere-20"), {c.surface, c.alpha}).triangles[0];
+    EXPECT_GE(tri.Domain.w, 0.607F);
+    EXPECT_LE(tri.Domain.w, 0.607F * 1.15F) << "surface " << c.surface;
+  }
+}
+
+TEST(EnclosingBall, IsAlmostTheSmallest) {
+  const std::vector<Ball> corners{
+      {{1, 1, 1}, 0.0}, {{-1, -1, 1}, 0.0}, {{-1, 1, -1}, 0.0}, {{1, -1, -1}, 0.0}};
+  const Ball ball = enclosing_ball(corners);
+  EXPECT_GE(ball.radius, std::sqrt(3.0) * (1.0 - 1e-12));
+  EXPECT_LE(ball.radius, std::sqrt(3.0) * 1.01);
+  const std::vector<Ball> two{{{0, 0, 0}, 1.0}, {{3, 0, 0}, 0.5}};  // from x = -1 to 3.5
+  EXPECT_GE(enclosing_ball(two).radius, 2.25 * (1.0 - 1e-12));
+  EXPECT_LE(enclosing_ball(two).radius, 2.25 * 1.02);
+  EXPECT_EQ(enclosing_ball(std::vector<Ball>{{{5, 6, 7}, 2.0}}).radius, 2.0);
+}
+
+}  // namespace
+}  // namespace trisect

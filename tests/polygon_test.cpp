@@ -1,0 +1,96 @@
+#include "app/polygon.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace trisect {
+namespace {
+
+using glm::dvec3;
+
+// Twice the signed area of the triangles, and of the polygon, along z.
+double cross_z(const dvec3& a, const dvec3& b, const dvec3& c) {
+  return glm::cross(b - a, c - a).z;
+}
+double polygon_area(const std::vector<dvec3>& p) {
+  double area = 0.0;
+  for (std::size_t i = 1; i + 1 < p.size(); ++i) area += cross_z(p[0], p[i], p[i + 1]);
+  return area;
+}
+
+// Every triangle turns the polygon's way and together they cover its area exactly once.
+void expect_exact_cover(const std::vector<dvec3>& p) {
+  const auto triangles = triangulate(p);
+  ASSERT_EQ(triangles.size(), p.size() - 2);
+  const double whole = polygon_area(p);
+  double sum = 0.0;
+  for (const auto& [a, b, c] : triangles) {
+    const double area = cross_z(p[a], p[b], p[c]);
+    EXPECT_GE(area * whole, 0.0) << "a triangle is flipped";
+    sum += area;
+  }
+  // Sums of some ten products of numbers of order 1.
+  EXPECT_NEAR(sum, whole, 1e-12);
+}
+
+TEST(Triangulate, CutsAQuadAlongItsFirstDiagonal) {
+  const auto triangles =
+      triangulate(std::vector<dvec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  ASSERT_EQ(triangles.size(), 2U);
+  EXPECT_EQ(triangles[0], (std::array<uint32_t, 3>{0, 1, 2}));
+  EXPECT_EQ(triangles[1], (std::array<uint32_t, 3>{0, 2, 3}));
+}
+
+TEST(Triangulate, CutsAConcaveQuadAlongTheDiagonalInside) {
+  // An arrowhead whose notch is corner 3: only the diagonal 1-3 lies inside.
+  expect_exact_cover({{0, 2, 0}, {-1, -1, 0}, {0, 0, 0}, {1, -1, 0}});
+  expect_exact_cover({{-1, -1, 0}, {0, 0, 0}, {1, -1, 0}, {0, 2, 0}});
+}
+
+TEST(Triangulate, CoversConcavePolygonsOfBothOrientations) {
+  const std::vector<dvec3> comb{{0, 0, 0}, {5, 0, 0}, {5, 3, 0}, {4, 1, 0},
+                                {3, 3, 0}, {2, 1, 0}, {1, 3, 0}, {0, 1, 0}};
+  expect_exact_cover(comb);
+  expect_exact_cover({comb.rbegin(), comb.rend()});
+}
+
+TEST(Triangulate, CoversACornerInTheMiddleOfAnEdge) {
+  expect_exact_cover({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}});
+}
+
+TEST(Triangulate, CoversRandomStars) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> radius(0.2, 1.0);
+  for (int k = 0; k < 200; ++k) {
+    std::vector<dvec3> star;
+    const int n = 5 + k % 40;
+    for (int i = 0; i < n; ++i) {
+      const double angle = 6.283185307179586 * i / n;
+      const double r = radius(random);
+      star.emplace_back(r * std::cos(angle), r * std::sin(angle), 0.0);
+    }
+    expect_exact_cover(star);
+  }
+}
+
+TEST(Triangulate, WorksInEveryPlane) {
+  // The arrowhead in the planes x = 0 and y = 0: four points, two triangles, the same way around.
+  const std::vector<dvec3> flat{{0, 2, 0}, {-1, -1, 0}, {0, 0, 0}, {1, -1, 0}};
+  for (const int turn : {1, 2}) {
+    std::vector<dvec3> turned;
+    for (const dvec3& p : flat) {
+      turned.push_back(turn == 1 ? dvec3(p.z, p.x, p.y) : dvec3(p.y, p.z, p.x));
+    }
+    EXPECT_EQ(triangulate(turned), triangulate(flat));
+  }
+}
+
+TEST(Triangulate, LosesNoTriangleOfAPolygonWithoutArea) {
+  EXPECT_EQ(triangulate(std::vector<dvec3>(6, dvec3(1.0))).size(), 4U);
+  EXPECT_EQ(triangulate(std::vector<dvec3>{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}).size(), 2U);
+}
+
+}  // namespace
+}  // namespace trisect

@@ -1,0 +1,181 @@
+// The program as a user runs it: exit codes, messages, files.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/exr_reader.h"
+#include "tests/support/run_program.h"
+#include "tests/support/scenes.h"
+#include "tests/support/temporary_folder.h"
+
+namespace trisect {
+namespace {
+
+using test::run_trisect;
+
+class Program : public ::testing::Test {
+ protected:
+  // `trisect render` of a small image, with more arguments.
+  test::ProgramRun render(const std::vector<std::string>& more = {},
+                          const std::string& output = "a.png") {
+    std::vector<std::string> arguments{
+        "render", test::asset_path("sphere-20"), "-o", folder_ / output, "--size", "32x24"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_trisect(arguments);
+  }
+
+  [[nodiscard]] std::size_t files() const {
+    return static_cast<std::size_t>(
+        std::distance(std::filesystem::directory_iterator(folder_.path()), {}));
+  }
+
+  // A complaint is one sentence on standard error, nothing is written, and the exit code tells its
+  // kind.
+  void expect_complaint(const test::ProgramRun& run, int code, const std::string& part) {
+    EXPECT_EQ(run.exit_code, code) << run.err;
+    EXPECT_EQ(run.err.find("trisect: "), 0U) << run.err;
+    EXPECT_NE(run.err.find(part), std::string::npos) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_EQ(files(), 0U);
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(Program, RendersAPicture) {
+  const test::ProgramRun run = render({"--validation"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  EXPECT_NE(run.out.find("20 triangles, 12 vertices"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("a.png"), std::string::npos) << run.out;
+  EXPECT_GT(std::filesystem::file_size(folder_ / "a.png"), 100U);
+  EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(Program, WritesStatistics) {
+  const test::ProgramRun run =
+      render({"--surface", "sphere", "--rank", "12", "--runs", "3", "--stats", folder_ / "s.json"},
+             "a.exr");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::ifstream file(folder_ / "s.json");
+  const auto json = nlohmann::json::parse(file);
+  EXPECT_EQ(json["surface"], "sphere");
+  EXPECT_EQ(json["rank"], 12);
+  EXPECT_EQ(json["runs"], 3);
+  EXPECT_EQ(json["patches"], 20);
+  EXPECT_EQ(json["width"], 32);
+  EXPECT_EQ(json["height"], 24);
+  EXPECT_LE(json["gpu_ms"]["min"], json["gpu_ms"]["median"]);
+  EXPECT_LE(json["gpu_ms"]["median"], json["gpu_ms"]["max"]);
+  EXPECT_GT(json["gpu_ms"]["min"], 0.0);
+  const Frame frame = test::read_exr(folder_ / "a.exr");
+  EXPECT_EQ(json["hits"], frame.hits());
+  EXPECT_GT(frame.hits(), 100U);
+}
+
+TEST_F(Program, PlacesTheCamera) {
+  // Straight down the z axis at a distance of 3: the sphere's near pole is 2 away.
+  const test::ProgramRun run =
+      render({"--surface", "sphere", "--rank", "20", "--size", "33x33", "--eye", "0,0,3",
+              "--target", "0,0,0", "--up", "0,1,0", "--fov", "60"},
+             "a.exr");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Frame frame = test::read_exr(folder_ / "a.exr");
+  EXPECT_NEAR(frame.aovs[16 * 33 + 16].normal_z.w, 2.0F,
+              2e-4F);  // the bisection's tolerance is 1e-4
+}
+
+TEST_F(Program, ComplainsAboutUsageWithCode2) {
+  expect_complaint(run_trisect({}), 2, "A subcommand is required");
+  expect_complaint(run_trisect({"frobnicate"}), 2, "'frobnicate' is not a command");
+  expect_complaint(run_trisect({"render"}), 2, "MODEL");
+  expect_complaint(run_trisect({"render", test::asset_path("cube")}), 2, "--output");
+  expect_complaint(render({"--surface", "bumpy"}), 2, "--surface");
+  expect_complaint(render({"--solver", "guess"}), 2, "--solver");
+  expect_complaint(render({"--rank", "0"}), 2, "--rank");
+  expect_complaint(render({"--rank", "61"}), 2, "--rank");
+  expect_complaint(render({"--fov", "180"}), 2, "--fov");
+  expect_complaint(render({"--alpha", "much"}), 2, "--alpha");
+  expect_complaint(render({"--alpha", "nan"}), 2, "--alpha");
+  expect_complaint(render({"--runs", "0"}), 2, "--runs");
+  expect_complaint(render({"--size", "32"}), 2, "--size");
+  expect_complaint(render({"--eye", "1,2"}), 2, "--eye");
+  expect_complaint(render({"--eye", "0,0,0", "--target", "0,0,0"}), 2, "--eye");
+  expect_complaint(render({"--nonsense"}), 2, "--nonsense");
+  expect_complaint(render({}, "a.bmp"), 2, "a.bmp");
+}
+
+TEST_F(Program, ComplainsAboutFilesWithCode3) {
+  expect_complaint(run_trisect({"render", "absent.obj", "-o", folder_ / "a.png"}), 3, "absent.obj");
+  expect_complaint(render({}, "no/such/folder/a.png"), 3, "no/such/folder/a.png");
+  expect_complaint(render({"--stats", folder_ / "none" / "s.json"}), 3, "s.json");
+  const test::TemporaryFolder models;
+  std::ofstream(models / "bad.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n";
+  expect_complaint(run_trisect({"render", models / "bad.obj", "-o", folder_ / "a.png"}), 3,
+                   "bad.obj, line 4");
+}
+
+TEST_F(Program, ComplainsAboutDevicesWithCode4) {
+  expect_complaint(render({"--device", "99"}), 4, "no Vulkan device is called '99'");
+  expect_complaint(render({"--device", "no such device"}), 4, "llvmpipe");
+  const std::vector<std::string> no_driver{"VK_DRIVER_FILES=/nonexistent.json",
+                                           "VK_ICD_FILENAMES=/nonexistent.json"};
+  expect_complaint(run_trisect({"devices"}, no_driver), 4, "Vulkan");
+  expect_complaint(
+      run_trisect({"render", test::asset_path("cube"), "-o", folder_ / "a.png"}, no_driver), 4,
+      "Vulkan");
+}
+
+TEST_F(Program, StopsWhenInterruptedAndLeavesNothing) {
+  const test::ProgramRun run = test::interrupt_trisect(
+      {"render", test::asset_path("teapot-1000"), "-o", folder_ / "a.png", "--size", "1600x1200",
+       "--runs", "50", "--stats", folder_ / "s.json"},
+      1500);
+  expect_complaint(run, 130, "interrupted");
+}
+
+TEST_F(Program, KeepsTheOldFileWhenItFails) {
+  std::ofstream(folder_ / "a.png") << "old";
+  EXPECT_EQ(render({"--device", "99"}).exit_code, 4);
+  std::string text;
+  std::ifstream(folder_ / "a.png") >> text;
+  EXPECT_EQ(text, "old");
+  EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(Program, ListsDevices) {
+  const test::ProgramRun run = run_trisect({"devices"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.out.find("0  "), 0U) << run.out;
+  EXPECT_NE(run.out.find("usable"), std::string::npos) << run.out;
+}
+
+TEST_F(Program, TakesADeviceByNumberAndByName) {
+  EXPECT_EQ(render({"--device", "0"}).exit_code, 0);
+  const std::string listed = run_trisect({"devices"}).out;
+  const std::string name = listed.substr(3, listed.find(' ', 3) - 3);
+  EXPECT_EQ(render({"--device", name}).exit_code, 0) << name;
+}
+
+TEST_F(Program, TellsItsVersionAndHelps) {
+  const test::ProgramRun version = run_trisect({"--version"});
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_EQ(version.out, "trisect " TRISECT_VERSION "\n");
+  const test::ProgramRun help = run_trisect({"--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  for (const char* word : {"render", "devices", "--version"}) {
+    EXPECT_NE(help.out.find(word), std::string::npos) << word;
+  }
+  const test::ProgramRun render_help = run_trisect({"render", "--help"});
+  EXPECT_EQ(render_help.exit_code, 0);
+  for (const char* word :
+       {"MODEL", "--output", "--size", "--surface", "--alpha", "--solver", "--rank", "--eye",
+        "--target", "--up", "--fov", "--device", "--validation", "--runs", "--stats"}) {
+    EXPECT_NE(render_help.out.find(word), std::string::npos) << word;
+  }
+}
+
+}  // namespace
+}  // namespace trisect

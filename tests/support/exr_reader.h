@@ -1,0 +1,20 @@
+// Reads back what write_exr wrote.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/frame.h"
+
+namespace trisect::test {
+
+// The frame of an EXR file with all of trisect's channels. Colours are linear light, as in the
+// file.
+Frame read_exr(const std::filesystem::path& path);
+
+// The names of a file's channels, each with its type: "float", "uint" or "half".
+std::map<std::string, std::string> exr_channels(const std::filesystem::path& path);
+
+}  // namespace trisect::test

@@ -1,0 +1,49 @@
+#include "tests/support/frame_difference.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trisect::test {
+namespace {
+
+double degrees_between(const vec4& a, const vec4& b) {
+  const glm::dvec3 u(a);
+  const glm::dvec3 v(b);
+  return glm::degrees(std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)));
+}
+
+// The larger one; a NaN is larger than anything.
+void raise(double& largest, double value) {
+  if (!std::isnan(largest) && !(value <= largest)) largest = value;
+}
+
+}  // namespace
+
+FrameDifference difference(const Frame& a, const Frame& b) {
+  FrameDifference result;
+  result.same_size = a.width == b.width && a.height == b.height && a.aovs.size() == b.aovs.size();
+  if (!result.same_size) return result;
+  for (std::size_t i = 0; i < a.aovs.size(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      raise(result.color, std::abs(static_cast<double>(a.colors[i][k] - b.colors[i][k])));
+    }
+    const PixelAovs& p = a.aovs[i];
+    const PixelAovs& q = b.aovs[i];
+    const bool hit_a = p.triangle != NO_TRIANGLE;
+    const bool hit_b = q.triangle != NO_TRIANGLE;
+    if (hit_a != hit_b || a.colors[i].w != b.colors[i].w) ++result.hit_mismatches;
+    if (!hit_a || !hit_b) continue;
+    raise(result.depth, std::abs(static_cast<double>(p.normal_z.w - q.normal_z.w)));
+    if (p.triangle != q.triangle) {
+      ++result.patch_mismatches;
+      continue;
+    }
+    raise(result.normal_degrees, degrees_between(p.normal_z, q.normal_z));
+    raise(result.normal_degrees, degrees_between(p.geometric_u, q.geometric_u));
+    raise(result.weights, std::abs(static_cast<double>(p.geometric_u.w - q.geometric_u.w)));
+    raise(result.weights, std::abs(static_cast<double>(p.v - q.v)));
+  }
+  return result;
+}
+
+}  // namespace trisect::test

@@ -1,0 +1,35 @@
+#include "tests/support/gpu.h"
+
+#include "app/vulkan_tracer.h"
+
+namespace trisect::test {
+
+const gpu::Instance& validated_instance() {
+  static const gpu::Instance instance(true);
+  return instance;
+}
+
+const gpu::Device& validated_device() {
+  static const gpu::Device device(validated_instance(), "");
+  return device;
+}
+
+Frame trace(const BakedScene& scene, const TraceSettings& settings) {
+  Frame frame;
+  VulkanTracer tracer(validated_device(), scene, settings.width, settings.height, true);
+  tracer.render(make_params(scene, settings), frame);
+  return frame;
+}
+
+TraceSettings framed(const Mesh& mesh, const BakedScene& scene, uint32_t width, uint32_t height,
+                     uint32_t rank) {
+  TraceSettings settings;
+  settings.width = width;
+  settings.height = height;
+  settings.rank = rank;
+  settings.camera = framing_camera(mesh.positions, scene.origin, 45.0, {0.0, 1.0, 0.0},
+                                   static_cast<double>(width) / static_cast<double>(height));
+  return settings;
+}
+
+}  // namespace trisect::test

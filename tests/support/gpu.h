@@ -1,0 +1,36 @@
+// One Vulkan device for all GPU tests of a process, under the validation layer with
+// synchronisation.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "app/bake.h"
+#include "app/frame.h"
+#include "app/trace_settings.h"
+#include "vk/device.h"
+
+namespace trisect::test {
+
+// Without a device, or without the layer, this throws: the test fails and does not pass by.
+const gpu::Instance& validated_instance();
+const gpu::Device& validated_device();
+
+// A test on the device, which fails on any validation message.
+class GpuTest : public ::testing::Test {
+ protected:
+  void SetUp() override { validated_instance().log().clear(); }
+  void TearDown() override {
+    for (const std::string& message : validated_instance().log().messages()) {
+      ADD_FAILURE() << "validation: " << message;
+    }
+  }
+};
+
+// One frame with AOVs.
+Frame trace(const BakedScene& scene, const TraceSettings& settings);
+
+// Settings for a small image of a model seen as `trisect render` sees it by default.
+TraceSettings framed(const Mesh& mesh, const BakedScene& scene, uint32_t width, uint32_t height,
+                     uint32_t rank);
+
+}  // namespace trisect::test

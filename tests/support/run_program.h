@@ -1,0 +1,22 @@
+// Runs the trisect program as a user does.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace trisect::test {
+
+struct ProgramRun {
+  int exit_code = -1;  // 128 + the signal's number if a signal ended it
+  std::string out;
+  std::string err;
+};
+
+// environment: "NAME=value" entries added to this process's.
+ProgramRun run_trisect(const std::vector<std::string>& arguments,
+                       const std::vector<std::string>& environment = {});
+
+// Starts it, sends it SIGINT after so many milliseconds, and waits.
+ProgramRun interrupt_trisect(const std::vector<std::string>& arguments, int after_ms);
+
+}  // namespace trisect::test

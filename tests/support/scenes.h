@@ -1,0 +1,40 @@
+// Models and patches for tests.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "app/bake.h"
+#include "app/mesh.h"
+#include "app/surface_double.h"
+
+namespace trisect::test {
+
+// The models in assets/, without the ending.
+const std::vector<std::string>& asset_names();
+
+std::string asset_path(const std::string& name);
+
+Mesh load_asset(const std::string& name);
+
+// A mesh of one triangle.
+Mesh one_triangle(const std::array<glm::dvec3, 3>& positions,
+                  const std::array<glm::dvec3, 3>& normals);
+
+// Corners in the unit cube; unit normals up to `spread` degrees off the face normal.
+struct RandomPatch {
+  std::array<glm::dvec3, 3> positions;
+  std::array<glm::dvec3, 3> normals;
+};
+RandomPatch random_patch(std::mt19937_64& random, double spread);
+
+// The baked numbers in double precision.
+in_double::Triangle widen(const Triangle& tri);
+
+// All weights with denominators n, (n + 1) (n + 2) / 2 of them; without the border if `interior`.
+std::vector<glm::dvec3> weight_grid(int n, bool interior = false);
+
+}  // namespace trisect::test

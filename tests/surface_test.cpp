@@ -1,0 +1,197 @@
+// The shaders' surface mathematics, run in double precision.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "app/bake.h"
+#include "app/surface_double.h"
+#include "tests/support/scenes.h"
+
+namespace trisect {
+namespace {
+
+using glm::dvec3;
+using glm::dvec4;
+
+// Undoes the bake's rounding of what follows from the rounded positions and normals, so that
+// identities hold to double precision.
+in_double::Triangle exact(const Triangle& single) {
+  in_double::Triangle tri = test::widen(single);
+  const dvec3 P0(tri.Position[0]);
+  const dvec3 n =
+      glm::normalize(glm::cross(dvec3(tri.Position[1]) - P0, dvec3(tri.Position[2]) - P0));
+  tri.TriNormal = dvec4(n, tri.TriNormal.w);
+  for (int i = 0; i < 3; ++i) tri.NormDot[i] = glm::dot(dvec3(tri.Normal[i]), n);
+  return tri;
+}
+
+in_double::Triangle baked(const test::RandomPatch& patch) {
+  return exact(bake_triangle(patch.positions, patch.normals, {}));
+}
+
+in_double::Triangle sphere_patch() {
+  return exact(bake(test::load_asset("sphere-20"), {SURFACE_SPHERE, 0.0}).triangles[0]);
+}
+
+// The thesis's fields and our closed forms are derived apart from each other: they must vanish
+// together.
+TEST(Surface, ThesisFieldsVanishOnTheClosedForms) {
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 2000; ++i) {
+    const in_double::Triangle tri = baked(test::random_patch(random, 60.0));
+    for (const dvec3& w : test::weight_grid(6, true)) {
+      const dvec3 p = in_double::surface_point(SURFACE_PHONG, tri, w, 0.65);
+      const dvec4 phong = in_double::PhongField(tri, p, 0.65);
+      // Slivers among the random triangles magnify the rounding of 1e-16.
+      ASSERT_NEAR(phong.w, 0.0, 1e-10) << "patch " << i;
+      ASSERT_LT(glm::distance(dvec3(phong), w), 1e-9) << "patch " << i;
+    }
+  }
+}
+
+TEST(Surface, SphereFieldVanishesOnTheClosedForm) {
+  for (const char* name : {"sphere-20", "sphere-80", "torus", "capsule", "saddle", "relief"}) {
+    for (const Triangle& single : bake(test::load_asset(name), {SURFACE_SPHERE, 0.0}).triangles) {
+      const in_double::Triangle tri = exact(single);
+      for (const dvec3& w : test::weight_grid(8, true)) {
+        const dvec3 p = in_double::surface_point(SURFACE_SPHERE, tri, w, 0.0);
+        const dvec4 field = in_double::SphereField(tri, p);
+        // Near a height of 0 the listing's direction is a difference of almost equal points.
+        ASSERT_NEAR(field.w, 0.0, 1e-11) << name;
+        ASSERT_LT(glm::distance(dvec3(field), w), 1e-11) << name;
+      }
+    }
+  }
+}
+
+TEST(Surface, FieldsAreDistancesAlongTheShell) {
+  std::mt19937_64 random(6);
+  for (int i = 0; i < 200; ++i) {
+    const in_double::Triangle tri = baked(test::random_patch(random, 30.0));
+    const dvec3 w(0.3, 0.45, 0.25);
+    const dvec3 D = in_double::shell_direction(tri, w);
+    const dvec3 p =
+        in_double::surface_point(SURFACE_PHONG, tri, w, 0.65) + glm::normalize(D) * 0.125;
+    EXPECT_NEAR(in_double::PhongField(tri, p, 0.65).w, 0.125, 1e-10);
+  }
+  const in_double::Triangle tri = sphere_patch();
+  EXPECT_NEAR(in_double::SphereField(tri, dvec3(tri.TriNormal) * 1.25).w, 0.25,
+              3e-7);  // baked curvatures
+}
+
+TEST(Surface, SphereIsExactOnASphere) {
+  for (const char* name : {"sphere-20", "sphere-80", "sphere-320"}) {
+    for (const Triangle& single : bake(test::load_asset(name), {SURFACE_SPHERE, 0.0}).triangles) {
+      const in_double::Triangle tri = test::widen(single);
+      for (const dvec3& w : test::weight_grid(10)) {
+        const dvec3 p = in_double::surface_point(SURFACE_SPHERE, tri, w, 0.0);
+        // What the rounding of the baked curvatures and normals to single precision leaves.
+        ASSERT_NEAR(glm::length(p), 1.0, 4e-7) << name;
+        const dvec3 n = in_double::geometric_normal(SURFACE_SPHERE, tri, w, 0.0);
+        ASSERT_LT(glm::distance(n, glm::normalize(p)), 3e-6) << name;
+      }
+    }
+  }
+}
+
+TEST(Surface, PhongIsBoubekeurAndAlexasProjectedOnTheShell) {
+  // At a triangle's centre with normals symmetric about the face normal the shell direction is the
+  // face normal, and Phong Tessellation needs no projection: compare with the paper's definition,
+  // point by point.
+  const in_double::Triangle tri = sphere_patch();
+  const dvec3 w(1.0 / 3.0);
+  const dvec3 T = in_double::base_point(tri, w);
+  dvec3 blend(0.0);
+  for (int i = 0; i < 3; ++i) {
+    const dvec3 n(tri.Normal[i]);
+    blend += (T - n * glm::dot(T - dvec3(tri.Position[i]), n)) / 3.0;
+  }
+  const dvec3 expected = T + (blend - T) * 0.65;
+  EXPECT_LT(glm::distance(in_double::surface_point(SURFACE_PHONG, tri, w, 0.65), expected), 1e-7);
+}
+
+TEST(Surface, KeepsTheVertices) {
+  std::mt19937_64 random(7);
+  const in_double::Triangle tri = baked(test::random_patch(random, 60.0));
+  for (int i = 0; i < 3; ++i) {
+    dvec3 w(0.0);
+    w[i] = 1.0;
+    for (const uint surface : {SURFACE_FLAT, SURFACE_PHONG, SURFACE_SPHERE}) {
+      EXPECT_LT(
+          glm::distance(in_double::surface_point(surface, tri, w, 0.65), dvec3(tri.Position[i])),
+          1e-12);
+    }
+  }
+}
+
+TEST(Surface, FlatNormalsGiveTheFlatTriangle) {
+  test::RandomPatch patch{{dvec3(0, 0, 0), dvec3(1, 0, 0), dvec3(0, 1, 0)},
+                          {dvec3(0, 0, 1), dvec3(0, 0, 1), dvec3(0, 0, 1)}};
+  const in_double::Triangle tri = baked(patch);
+  for (const dvec3& w : test::weight_grid(5)) {
+    for (const uint surface : {SURFACE_PHONG, SURFACE_SPHERE}) {
+      EXPECT_EQ(in_double::displacement(surface, tri, w, 0.65), 0.0);
+      EXPECT_EQ(in_double::geometric_normal(surface, tri, w, 0.65), dvec3(0, 0, 1));
+    }
+  }
+}
+
+TEST(Surface, GeometricNormalIsThatOfDifferences) {
+  std::mt19937_64 random(8);
+  constexpr double h = 1e-5;  // central differences: h^2 of truncation, 1e-16 / h of rounding
+  for (int i = 0; i < 500; ++i) {
+    const in_double::Triangle tri = baked(test::random_patch(random, 35.0));
+    for (const uint surface : {SURFACE_PHONG, SURFACE_SPHERE}) {
+      for (const dvec3& w : test::weight_grid(5, true)) {
+        const auto difference = [&](const dvec3& step) {
+          return in_double::surface_point(surface, tri, w + step * h, 0.65) -
+                 in_double::surface_point(surface, tri, w - step * h, 0.65);
+        };
+        const dvec3 s_u = difference({-1, 1, 0});
+        const dvec3 s_v = difference({-1, 0, 1});
+        const dvec3 expected = glm::normalize(glm::cross(s_u, s_v));
+        const dvec3 normal = in_double::geometric_normal(surface, tri, w, 0.65);
+        // Slivers among the random triangles have steep derivatives.
+        ASSERT_LT(glm::distance(normal, expected), 1e-4) << "patch " << i << " surface " << surface;
+      }
+    }
+  }
+}
+
+TEST(SphereRoot, SolvesTheSphere) {
+  // A unit sphere that touches z = 0 from below at the origin, and lines down onto it.
+  for (const double x : {0.0, 0.3, 0.9}) {
+    const double s = in_double::sphere_root({x, 0, 1}, {0, 0, -1}, {0, 0, 1}, 1.0);
+    EXPECT_NEAR(1.0 - s, std::sqrt(1.0 - x * x) - 1.0, 1e-15);
+  }
+  // Curvature 0 is the plane, and it is approached smoothly from both sides.
+  for (const double c : {0.0, 1e-12, -1e-12, 1e-300}) {
+    EXPECT_NEAR(in_double::sphere_root({0.5, 0, 0.25}, {0, 0, -1}, {0, 0, 1}, c), 0.25, 1e-12);
+  }
+  // A line that misses the sphere: continuous with the line that just touches it.
+  const auto past = [](double x) {
+    return in_double::sphere_root({x, 0, 0}, {0, 0, -1}, {0, 0, 1}, 1.0);
+  };
+  EXPECT_NEAR(past(1.0 + 1e-12), past(1.0 - 1e-12), 1e-5);  // the square root of the step
+  EXPECT_TRUE(std::isfinite(past(5.0)));
+  // At the vertex itself, even along the tangent plane, where everything vanishes.
+  EXPECT_EQ(in_double::sphere_root({0, 0, 0}, {1, 0, 0}, {0, 0, 1}, 0.0), 0.0);
+}
+
+TEST(SphereHeight, StopsAtTheLongestEdge) {
+  // The direction lies almost in the tangent plane of the vertex.
+  const dvec4 data(0.0, 0.0, 1.0, 0.0);
+  const dvec3 D(1.0, 0.0, 1e-9);
+  const double s =
+      in_double::sphere_height({0, 0.1, 0.5}, D, {0, 0, 0}, {0, 0, 1}, {0, 1, 0}, data, 2.0);
+  EXPECT_NEAR(std::abs(s) * glm::length(D), 2.0, 1e-12);
+}
+
+TEST(AngleBetween, IsExactNearZero) {
+  EXPECT_NEAR(in_double::AngleBetween({1, 0, 0}, {1, 1e-10, 0}), 1e-10, 1e-24);
+  EXPECT_NEAR(in_double::AngleBetween({1, 0, 0}, {-1, 0, 0}), std::acos(-1.0), 1e-15);
+}
+
+}  // namespace
+}  // namespace trisect

@@ -1,0 +1,361 @@
+// The kernel's frames against analysis, and against each other.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/vulkan_tracer.h"
+#include "tests/support/frame_difference.h"
+#include "tests/support/gpu.h"
+#include "tests/support/scenes.h"
+#include "vk/result.h"
+
+namespace trisect {
+namespace {
+
+using glm::dvec3;
+
+class Trace : public test::GpuTest {};
+
+// The kernel's ray through a pixel's centre, in double precision, relative to the scene's origin.
+struct PixelRay {
+  dvec3 eye;
+  dvec3 direction;
+};
+PixelRay pixel_ray(const TraceParams& params, uint32_t x, uint32_t y) {
+  const dvec3 to_near = dvec3(params.ray_corner) + dvec3(params.ray_dx) * (x + 0.5) +
+                        dvec3(params.ray_dy) * (y + 0.5);
+  return {dvec3(params.eye), glm::normalize(to_near)};
+}
+
+// Where a ray meets a triangle from its front: the distance, and the smallest weight, negative
+// outside.
+struct Meeting {
+  double distance;
+  double inside;
+};
+Meeting meet(const PixelRay& ray, const Triangle& tri) {
+  const dvec3 P0(tri.Position[0]);
+  const dvec3 e1 = dvec3(tri.Position[1]) - P0;
+  const dvec3 e2 = dvec3(tri.Position[2]) - P0;
+  const dvec3 n = glm::cross(e1, e2);
+  const double slope = glm::dot(n, ray.direction);
+  if (slope >= 0.0) return {0.0, -1.0};
+  const double t = glm::dot(n, P0 - ray.eye) / slope;
+  const dvec3 p = ray.eye + ray.direction * t - P0;
+  const double v = glm::dot(glm::cross(p, e2), n) / glm::dot(n, n);
+  const double w = glm::dot(glm::cross(e1, p), n) / glm::dot(n, n);
+  return {t, std::min({1.0 - v - w, v, w})};
+}
+
+TEST_F(Trace, FlatIsThePlainTriangle) {
+  for (const char* name : {"sphere-80", "teapot", "relief", "cube"}) {
+    const Mesh mesh = test::load_asset(name);
+    const BakedScene scene = bake(mesh, {SURFACE_FLAT, 0.0});
+    const TraceSettings settings = test::framed(mesh, scene, 120, 90, 10);
+    const TraceParams params = make_params(scene, settings);
+    const Frame frame = test::trace(scene, settings);
+    std::size_t undecided = 0;
+    std::size_t hits = 0;
+    for (uint32_t y = 0; y < 90; ++y) {
+      for (uint32_t x = 0; x < 120; ++x) {
+        const PixelRay ray = pixel_ray(params, x, y);
+        double nearest = std::numeric_limits<double>::infinity();
+        bool on_edge = false;
+        for (const Triangle& tri : scene.triangles) {
+          const Meeting m = meet(ray, tri);
+          // Single precision moves a weight by some 1e-6; there hit or miss cannot be told.
+          on_edge = on_edge || std::abs(m.inside) < 1e-5;
+          if (m.inside >= 0.0 && m.distance < nearest) nearest = m.distance;
+        }
+        if (on_edge) {
+          ++undecided;
+          continue;
+        }
+        const PixelAovs& aov = frame.aovs[y * 120 + x];
+        const bool hit = std::isfinite(nearest);
+        hits += hit ? 1 : 0;
+        ASSERT_EQ(aov.triangle != NO_TRIANGLE, hit) << name << " " << x << "," << y;
+        // Depth from a near point rounded to 6e-8 of the eye's distance of about 10.
+        if (!hit) continue;
+        ASSERT_NEAR(static_cast<double>(aov.normal_z.w), nearest, 1e-5 * nearest) << name;
+      }
+    }
+    EXPECT_GT(hits, 1000U) << name;
+    EXPECT_LT(undecided, 20U) << name;
+  }
+}
+
+TEST_F(Trace, CurvedSurfacesWithFlatNormalsAreFlat) {
+  // At Rank 24 the march's last step is below single precision.
+  const Mesh mesh = test::load_asset("cube");
+  const BakedScene flat = bake(mesh, {SURFACE_FLAT, 0.0});
+  const TraceSettings settings = test::framed(mesh, flat, 160, 120, 24);
+  const Frame expected = test::trace(flat, settings);
+  for (const uint surface : {SURFACE_PHONG, SURFACE_SPHERE}) {
+    const Frame frame = test::trace(bake(mesh, {surface, 0.65}), settings);
+    const test::FrameDifference d = test::difference(expected, frame);
+    ASSERT_TRUE(d.same_size);
+    // A pixel whose ray runs along an edge within rounding may fall to either side.
+    EXPECT_LE(d.hit_mismatches, 2U) << "surface " << surface;
+    EXPECT_LE(d.patch_mismatches, 2U) << "surface " << surface;
+    // The listing accepts a field of up to minDelta, 1e-4, at rays as oblique as 1 to 4.
+    EXPECT_LE(d.depth, 4e-4) << "surface " << surface;
+    EXPECT_LE(d.normal_degrees, 0.01) << "surface " << surface;
+  }
+}
+
+TEST_F(Trace, AlphaZeroIsFlat) {
+  const Mesh mesh = test::load_asset("relief");
+  const BakedScene flat = bake(mesh, {SURFACE_FLAT, 0.0});
+  TraceSettings settings = test::framed(mesh, flat, 160, 120, 24);
+  // From straight in front, where no vertex normal faces away: the listing steers by those.
+  settings.camera.eye = {0, 0, 4};
+  const test::FrameDifference d = test::difference(
+      test::trace(flat, settings), test::trace(bake(mesh, {SURFACE_PHONG, 0.0}), settings));
+  // The outline: the listing accepts points up to minDelta off the surface.
+  EXPECT_LE(d.hit_mismatches, 4U);
+  EXPECT_LE(d.depth, 1e-3);
+}
+
+TEST_F(Trace, SphereSurfaceLiesOnTheUnitSphere) {
+  for (const char* name : {"sphere-20", "sphere-80", "sphere-320"}) {
+    const Mesh mesh = test::load_asset(name);
+    const BakedScene scene = bake(mesh, {SURFACE_SPHERE, 0.0});
+    for (const uint32_t rank : {10U, 20U}) {
+      const TraceSettings settings = test::framed(mesh, scene, 160, 120, rank);
+      const TraceParams params = make_params(scene, settings);
+      const Frame frame = test::trace(scene, settings);
+      // A hit is accepted up to this far off along the shell: the chord's 2^-rank, or minDelta.
+      double chord = 0.0;
+      for (const Triangle& tri : scene.triangles)
+        chord = std::max(chord, 2.0 * static_cast<double>(tri.Domain.w));
+      const double bound = std::max(chord * std::ldexp(1.0, -static_cast<int>(rank)), 1e-4) + 1e-6;
+      double worst = 0.0;
+      for (uint32_t y = 0; y < 120; ++y) {
+        for (uint32_t x = 0; x < 160; ++x) {
+          const PixelAovs& aov = frame.aovs[y * 160 + x];
+          if (aov.triangle == NO_TRIANGLE) continue;
+          const PixelRay ray = pixel_ray(params, x, y);
+          const dvec3 p =
+              ray.eye + ray.direction * static_cast<double>(aov.normal_z.w) + scene.origin;
+          worst = std::max(worst, std::abs(glm::length(p) - 1.0));
+        }
+      }
+      EXPECT_LE(worst, bound) << name << " rank " << rank;
+      EXPECT_GT(worst, 0.0) << name;
+    }
+  }
+}
+
+TEST_F(Trace, BisectionDropsPixelsAtRank10AndNoneAtRank20) {
+  // The evidence that the port is faithful: rings of holes, a fifth of the sphere's pixels.
+  const Mesh mesh = test::load_asset("sphere-20");
+  for (const uint surface : {SURFACE_PHONG, SURFACE_SPHERE}) {
+    const BakedScene scene = bake(mesh, {surface, 0.65});
+    const auto hits = [&](uint32_t rank) {
+      return static_cast<double>(
+          test::trace(scene, test::framed(mesh, scene, 400, 300, rank)).hits());
+    };
+    const double whole = hits(30);
+    EXPECT_GT(hits(10) / whole, 0.70);
+    EXPECT_LT(hits(10) / whole, 0.85);
+    EXPECT_GE(hits(20) / whole, 0.9999);
+    EXPECT_EQ(hits(1), 0.0);
+  }
+}
+
+TEST_F(Trace, EveryCornerOfTheImageIsWhereItBelongs) {
+  // Four triangles, one in each corner of the view, told apart by their number: the image is
+  // neither mirrored nor upside down.
+  Mesh mesh;
+  mesh.normals = {{0, 0, 1}};
+  const auto add = [&](double x, double y) {
+    const auto first = static_cast<uint32_t>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), {{x, y, 0}, {x + 0.5, y, 0}, {x, y + 0.5, 0}});
+    mesh.triangles.push_back({{first, first + 1, first + 2}, {0, 0, 0}});
+  };
+  add(-1.0, 0.5);   // 0: top left
+  add(0.5, 0.5);    // 1: top right
+  add(-1.0, -1.0);  // 2: bottom left
+  add(0.5, -1.0);   // 3: bottom right
+  const BakedScene scene = bake(mesh, {SURFACE_FLAT, 0.0});
+  TraceSettings settings;
+  settings.camera = {{0, 0, 2.4}, {0, 0, 0}, {0, 1, 0}, 45.0};  // sees 0.994 of each side
+  settings.width = 65;
+  settings.height = 65;
+  const Frame frame = test::trace(scene, settings);
+  const auto at = [&](uint32_t column, uint32_t row) {
+    return frame.aovs[row * 65 + column].triangle;
+  };
+  EXPECT_EQ(at(4, 12), 0U);
+  EXPECT_EQ(at(52, 12), 1U);
+  EXPECT_EQ(at(4, 60), 2U);
+  EXPECT_EQ(at(52, 60), 3U);
+  EXPECT_EQ(at(32, 32), NO_TRIANGLE);
+  // Within a triangle U grows to the right and V upward.
+  const auto uv = [&](uint32_t column, uint32_t row) {
+    const PixelAovs& aov = frame.aovs[row * 65 + column];
+    return glm::vec2(aov.geometric_u.w, aov.v);
+  };
+  EXPECT_GT(uv(8, 60).x, uv(4, 60).x);
+  EXPECT_GT(uv(4, 56).y, uv(4, 60).y);
+}
+
+TEST_F(Trace, MissesHaveTheSkyAndNothingElse) {
+  const Mesh mesh = test::load_asset("sphere-20");
+  const BakedScene scene = bake(mesh, {});
+  TraceSettings settings = test::framed(mesh, scene, 9, 7, 10);
+  settings.camera.target = settings.camera.eye * 2.0;  // away from the model
+  const TraceParams params = make_params(scene, settings);
+  const Frame frame = test::trace(scene, settings);
+  EXPECT_EQ(frame.hits(), 0U);
+  for (uint32_t i = 0; i < 63; ++i) {
+    const double up = std::abs(pixel_ray(params, i % 9, i / 9).direction.y);
+    const dvec3 sky = glm::mix(dvec3(1.0, 0.7, 0.5), dvec3(0.8, 0.9, 1.0), std::sqrt(up));
+    EXPECT_LT(glm::distance(dvec3(frame.colors[i]), sky), 1e-5);
+    EXPECT_EQ(frame.colors[i].w, 0.0F);
+    EXPECT_EQ(frame.aovs[i].triangle, NO_TRIANGLE);
+    EXPECT_EQ(frame.aovs[i].normal_z, vec4(0.0F));
+    EXPECT_EQ(frame.aovs[i].geometric_u, vec4(0.0F));
+    EXPECT_EQ(frame.aovs[i].v, 0.0F);
+  }
+}
+
+TEST_F(Trace, NormalsAreUnitAndFaceTheEye) {
+  const Mesh mesh = test::load_asset("torus");
+  for (const uint surface : {SURFACE_FLAT, SURFACE_PHONG, SURFACE_SPHERE}) {
+    const BakedScene scene = bake(mesh, {surface, 0.65});
+    const TraceSettings settings = test::framed(mesh, scene, 80, 60, 20);
+    const TraceParams params = make_params(scene, settings);
+    const Frame frame = test::trace(scene, settings);
+    EXPECT_GT(frame.hits(), 500U);
+    for (uint32_t i = 0; i < 80 * 60; ++i) {
+      const PixelAovs& aov = frame.aovs[i];
+      if (aov.triangle == NO_TRIANGLE) continue;
+      const dvec3 shading(aov.normal_z);
+      const dvec3 geometric(aov.geometric_u);
+      ASSERT_NEAR(glm::length(shading), 1.0, 1e-6);
+      ASSERT_NEAR(glm::length(geometric), 1.0, 1e-6);
+      // Front surfaces only, whose two normals differ by the faceting of 256 triangles.
+      ASSERT_GT(glm::dot(shading, geometric), 0.85);
+      if (surface != SURFACE_FLAT) {
+        ASSERT_LE(glm::dot(shading, pixel_ray(params, i % 80, i / 80).direction), 1e-3);
+      }
+    }
+  }
+}
+
+TEST_F(Trace, FramesDoNotDependOnTheirTiling) {
+  const Mesh mesh = test::load_asset("sphere-80");
+  const BakedScene scene = bake(mesh, {});
+  const TraceSettings settings = test::framed(mesh, scene, 203, 117, 12);
+  const TraceParams params = make_params(scene, settings);
+  VulkanTracer tracer(test::validated_device(), scene, 203, 117, true);
+  Frame first;
+  Frame second;
+  int submits = 0;
+  tracer.render(params, first, [&] { ++submits; });
+  EXPECT_GT(submits, 1) << "the first frame feels its way";
+  // By now the tracer knows the cost of a workgroup, and cuts the image elsewhere.
+  tracer.render(params, second);
+  EXPECT_EQ(first.colors, second.colors);
+  for (std::size_t i = 0; i < first.aovs.size(); ++i) {
+    ASSERT_EQ(first.aovs[i].triangle, second.aovs[i].triangle);
+    ASSERT_EQ(first.aovs[i].normal_z, second.aovs[i].normal_z);
+  }
+}
+
+TEST_F(Trace, PixelsOfAnySizeOfImageAreThoseOfTheWholeImage) {
+  // One pixel, one row, one column, sizes that no workgroup divides.
+  const Mesh mesh = test::load_asset("sphere-20");
+  const BakedScene scene = bake(mesh, {SURFACE_FLAT, 0.0});
+  for (const auto& [width, height] :
+       {std::pair{1U, 1U}, {1U, 37U}, {41U, 1U}, {13U, 17U}, {8U, 8U}}) {
+    TraceSettings settings = test::framed(mesh, scene, width, height, 10);
+    const Frame frame = test::trace(scene, settings);
+    ASSERT_EQ(frame.colors.size(), std::size_t{width} * height);
+    // The camera looks at the model's middle.
+    EXPECT_EQ(frame.colors[(height / 2) * width + width / 2].w, 1.0F) << width << "x" << height;
+    for (const vec4& color : frame.colors) EXPECT_GT(color.x, 0.2F) << "a pixel was not written";
+  }
+}
+
+TEST_F(Trace, AnImageLargerThanABufferComesInBands) {
+  // 2^17 x 65 pixels of AOVs are 408 MB; lavapipe's largest storage buffer is 128 MiB.
+  const Mesh mesh = test::one_triangle({dvec3(-9, -9, 0), dvec3(9, -9, 0), dvec3(0, 9, 0)},
+                                       {dvec3(0, 0, 1), dvec3(0, 0, 1), dvec3(0, 0, 1)});
+  const BakedScene scene = bake(mesh, {SURFACE_FLAT, 0.0});
+  TraceSettings settings;
+  settings.width = 1U << 17U;
+  settings.height = 65;
+  settings.camera = {{0, 0, 0.1}, {0, 0, 0}, {0, 1, 0}, 10.0};
+  const Frame frame = test::trace(scene, settings);
+  // The view in the middle column, from the first band to the last.
+  for (uint32_t row = 0; row < 65; ++row) {
+    const std::size_t middle = std::size_t{row} * settings.width + settings.width / 2;
+    EXPECT_EQ(frame.aovs[middle].triangle, 0U) << "row " << row;
+    const float y =
+        (32.5F - (static_cast<float>(row) + 0.5F)) / 32.5F * std::tan(glm::radians(5.0F));
+    EXPECT_NEAR(frame.aovs[middle].normal_z.w, 0.1F * std::sqrt(1.0F + y * y), 1e-6F)
+        << "row " << row;
+  }
+}
+
+TEST_F(Trace, StopsBetweenTwoSubmits) {
+  const Mesh mesh = test::load_asset("sphere-20");
+  const BakedScene scene = bake(mesh, {});
+  const TraceSettings settings = test::framed(mesh, scene, 400, 300, 10);
+  VulkanTracer tracer(test::validated_device(), scene, 400, 300, false);
+  Frame frame;
+  EXPECT_THROW(
+      tracer.render(make_params(scene, settings), frame, [] { throw std::runtime_error("stop"); }),
+      std::runtime_error);
+  // And goes on as if nothing had been.
+  tracer.render(make_params(scene, settings), frame);
+  EXPECT_GT(frame.hits(), 10000U);
+}
+
+TEST_F(Trace, ColorDoesNotDependOnAovs) {
+  const Mesh mesh = test::load_asset("relief");
+  const BakedScene scene = bake(mesh, {});
+  const TraceSettings settings = test::framed(mesh, scene, 100, 75, 16);
+  VulkanTracer tracer(test::validated_device(), scene, 100, 75, false);
+  Frame color_only;
+  tracer.render(make_params(scene, settings), color_only);
+  EXPECT_TRUE(color_only.aovs.empty());
+  EXPECT_EQ(color_only.colors, test::trace(scene, settings).colors);
+}
+
+TEST_F(Trace, FarFromTheOriginTheFrameIsTheSame) {
+  Mesh mesh = test::load_asset("sphere-20");
+  const BakedScene near = bake(mesh, {SURFACE_SPHERE, 0.0});
+  const Frame expected = test::trace(near, test::framed(mesh, near, 160, 120, 24));
+  for (dvec3& p : mesh.positions) p += dvec3(1e6, -2e6, 3e6);
+  const BakedScene far = bake(mesh, {SURFACE_SPHERE, 0.0});
+  const test::FrameDifference d =
+      test::difference(expected, test::trace(far, test::framed(mesh, far, 160, 120, 24)));
+  // Rays and vertices differ by a rounding: pixels at an edge may change sides.
+  EXPECT_LE(d.hit_mismatches, 3U);
+  EXPECT_LE(d.patch_mismatches, 3U);
+  EXPECT_LE(d.depth, 1e-3);
+}
+
+TEST_F(Trace, RefusesAnImageThatNoBufferHolds) {
+  const Mesh mesh = test::load_asset("cube");
+  const BakedScene scene = bake(mesh, {});
+  EXPECT_THROW(VulkanTracer(test::validated_device(), scene, 1U << 20U, 8, true), gpu::Error);
+}
+
+TEST_F(Trace, RefusesAModelThatNoBufferHolds) {
+  BakedScene scene = bake(test::load_asset("cube"), {});
+  scene.triangles.resize(700'000, scene.triangles[0]);  // 134.4 MB
+  try {
+    const VulkanTracer tracer(test::validated_device(), scene, 8, 8, false);
+    FAIL() << "accepted";
+  } catch (const gpu::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("700000"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace trisect
