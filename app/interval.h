@@ -14,8 +14,8 @@ struct Interval {
   double hi = 0.0;
 
   Interval() = default;
-  Interval(double value)
-      : lo(value), hi(value) {}  // NOLINT(google-explicit-constructor): a number is one
+  // NOLINTNEXTLINE(google-explicit-constructor): a number is an interval
+  Interval(double value) : lo(value), hi(value) {}
   Interval(double low, double high) : lo(low), hi(high) {}
 };
 

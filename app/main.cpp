@@ -145,7 +145,7 @@ int run(int argc, char** argv) {
 }  // namespace trisect
 
 int main(int argc, char** argv) {
-  using namespace trisect;
+  using namespace trisect;  // NOLINT(google-build-using-namespace): main's own
   try {
     catch_interrupts();
     return run(argc, argv);

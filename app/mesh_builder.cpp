@@ -239,8 +239,9 @@ BuiltMesh build_mesh(const ObjFile& file, const std::string& name,
         out.normal[i] = static_cast<uint32_t>(mesh.normals.size());
         mesh.normals.push_back(own->at(t, i));
       }
-      if (glm::dot(mesh.normals[out.normal[i]], area_vector(points)) <= 0.0)
+      if (glm::dot(mesh.normals[out.normal[i]], area_vector(points)) <= 0.0) {
         ++report.normals_behind;
+      }
     }
     mesh.triangles.push_back(out);
   }

@@ -64,8 +64,9 @@ std::vector<std::array<uint32_t, 3>> triangulate(std::span<const glm::dvec3> cor
     const auto [a, b, c] = corner(i);
     for (std::size_t k = 0; k < ring.size(); ++k) {
       // Only a corner that does not turn left can lie in an ear of a simple polygon.
-      if (turn_at(k) <= 0.0 && inside(points[ring[k]], points[a], points[b], points[c]))
+      if (turn_at(k) <= 0.0 && inside(points[ring[k]], points[a], points[b], points[c])) {
         return false;
+      }
     }
     return true;
   };

@@ -124,8 +124,9 @@ TEST(Layout, InterfaceIsTheKernels) {
   }
   std::map<uint32_t, VkDescriptorType> in_interface;
   const gpu::KernelInterface interface = trace_list_interface();
-  for (const gpu::Binding& binding : interface.bindings)
+  for (const gpu::Binding& binding : interface.bindings) {
     in_interface[binding.binding] = binding.type;
+  }
   EXPECT_EQ(in_kernel, in_interface);
   EXPECT_EQ(interface.push_size, sizeof(TilePush));
 

@@ -80,6 +80,7 @@ TEST(Triangulate, WorksInEveryPlane) {
   const std::vector<dvec3> flat{{0, 2, 0}, {-1, -1, 0}, {0, 0, 0}, {1, -1, 0}};
   for (const int turn : {1, 2}) {
     std::vector<dvec3> turned;
+    turned.reserve(flat.size());
     for (const dvec3& p : flat) {
       turned.push_back(turn == 1 ? dvec3(p.z, p.x, p.y) : dvec3(p.y, p.z, p.x));
     }

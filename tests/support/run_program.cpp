@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -31,11 +32,19 @@ ProgramRun run(const std::vector<std::string>& arguments,
   std::vector<std::string> words{TRISECT_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   std::vector<std::string> added = environment;
   std::vector<char*> envp;
-  for (char** entry = environ; *entry != nullptr; ++entry) envp.push_back(*entry);
+  const auto is_replaced = [&](const std::string& entry) {
+    return std::any_of(added.begin(), added.end(), [&](const std::string& other) {
+      return entry.substr(0, entry.find('=')) == other.substr(0, other.find('='));
+    });
+  };
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    if (!is_replaced(*entry)) envp.push_back(*entry);
+  }
   for (std::string& entry : added) envp.push_back(entry.data());
   envp.push_back(nullptr);
 

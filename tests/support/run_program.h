@@ -12,7 +12,7 @@ struct ProgramRun {
   std::string err;
 };
 
-// environment: "NAME=value" entries added to this process's.
+// environment: entries "NAME=value" that add to this process's or replace them.
 ProgramRun run_trisect(const std::vector<std::string>& arguments,
                        const std::vector<std::string>& environment = {});
 

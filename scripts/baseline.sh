@@ -1,0 +1,80 @@
+#!/bin/bash
+# Measures the baseline that README and docs/baseline.md quote, and writes docs/baseline.md and README's pictures.
+# About three minutes.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+scripts/setup.sh build docs
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# measure DRIVER MODEL SURFACE RANK RUNS: renders at 800x600, leaving the figures for figure(). DRIVER is `stock` or
+# `newer`, the one that unpack-mesa.sh unpacks.
+measure() {
+  local environment=()
+  if [ "$1" = newer ]; then read -ra environment < <(scripts/unpack-mesa.sh); fi
+  env "${environment[@]}" build/release/trisect render "assets/$2.obj" --surface "$3" --rank "$4" --runs "$5" \
+    -o "$work/a.png" --stats "$work/a.json" >/dev/null
+}
+# figure PATH: a figure of the last measurement, such as .hits or .gpu_ms.median.
+figure() { jq -r "$1" "$work/a.json"; }
+
+{
+  measure newer sphere-20 phong 10 1
+  newer=$(figure .driver)
+  measure stock sphere-20 phong 10 1
+  cat <<END
+# The baseline
+
+The thesis's algorithm as it stands: every triangle at every pixel, bisection. 800x600, default camera. Written by
+\`scripts/baseline.sh\` on $(nproc) cores:
+
+- device $(figure .device)
+- driver A: $(figure .driver), Debian 12's own
+- driver B: $newer, from bookworm-backports
+
+## Time at Rank 10
+
+Milliseconds on the device, medians of 5 frames after a warm-up. The last column is the thesis's table 3.1, a GPU of
+2020. The machine is shared and noisy: 20% either way means nothing.
+
+| thesis | here | triangles | phong, A | phong, B | sphere, A | sphere, B | thesis |
+|---|---|---|---|---|---|---|---|
+END
+  while read -r thesis model milliseconds; do
+    row=""
+    for surface in phong sphere; do
+      for driver in stock newer; do
+        measure "$driver" "$model" "$surface" 10 5
+        row+=" $(printf '%.0f' "$(figure .gpu_ms.median)") |"
+      done
+    done
+    echo "| $thesis | $model | $(figure .patches) |$row $milliseconds |"
+  done <<< $'SphereHigh sphere-20 15\nFresko relief 25\nTeapot teapot 51'
+  cat <<END
+
+## Pixels that the bisection drops
+
+sphere-20 on driver A: pixels hit, and which part of those hit at Rank 30 is missing.
+
+| Rank | phong | missing | sphere | missing |
+|---|---|---|---|---|
+END
+  measure stock sphere-20 phong 30 1
+  phong=$(figure .hits)
+  measure stock sphere-20 sphere 30 1
+  sphere=$(figure .hits)
+  for rank in 6 8 10 12 14 16 18 20 30; do
+    measure stock sphere-20 phong "$rank" 1
+    p=$(figure .hits)
+    measure stock sphere-20 sphere "$rank" 1
+    s=$(figure .hits)
+    awk -v r="$rank" -v p="$p" -v P="$phong" -v s="$s" -v S="$sphere" \
+      'function missing(n, N) { return n < N ? 100 * (N - n) / N : 0 }
+       BEGIN { printf "| %d | %d | %.1f%% | %d | %.1f%% |\n", r, p, missing(p, P), s, missing(s, S) }'
+  done
+} > "$work/baseline.md"
+mv "$work/baseline.md" docs/baseline.md
+picture() { build/release/trisect render "assets/$1.obj" --size 480x360 --rank "$2" -o "docs/$3.png" >/dev/null; }
+picture teapot 20 teapot
+picture sphere-20 10 sphere-20-rank-10
+cat docs/baseline.md
