@@ -1,28 +1,44 @@
 #include "app/atomic_file.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <fstream>
+#include <string>
 #include <system_error>
-#include <utility>
 
 #include "app/error.h"
 
 namespace trisect {
 
-AtomicFile::AtomicFile(std::filesystem::path target) : target_(std::move(target)) {
-  std::error_code unused;
-  if (std::filesystem::is_directory(target_, unused)) {
-    throw InputError(target_.string() + ": is a directory, not a file to write.");
+AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target) {
+  const auto fail = [&](const std::string& why) {
+    throw InputError(fmt::format("{}: cannot be written: {}.", target.string(), why));
+  };
+  std::error_code error;
+  if (std::filesystem::is_symlink(target_, error)) {
+    target_ = std::filesystem::weakly_canonical(target_, error);
+    if (error) fail(error.message());
   }
-  temporary_ = target_;
-  temporary_ += fmt::format(".{}.tmp", getpid());
-  if (!std::ofstream(temporary_)) {
-    throw InputError(fmt::format("{}: cannot be written: {}.", target_.string(),
-                                 std::generic_category().message(errno)));
+  const std::filesystem::file_status status = std::filesystem::status(target_, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    fail("it is not a regular file");
   }
+  std::string name = target_.string() + ".XXXXXX";
+  const int file = mkstemp(name.data());
+  if (file < 0) fail(std::generic_category().message(errno));
+  temporary_ = name;
+  // mkstemp makes it private; it shall have what an ordinary new file has.
+  const mode_t mask = umask(0);
+  umask(mask);
+  const mode_t mode = std::filesystem::exists(status)
+                          ? static_cast<mode_t>(status.permissions() & std::filesystem::perms::mask)
+                          : mode_t{0666} & ~mask;
+  fchmod(file, mode);
+  close(file);
 }
 
 AtomicFile::~AtomicFile() {

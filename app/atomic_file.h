@@ -8,11 +8,13 @@ namespace trisect {
 
 // Reserves a temporary file beside `target` at once, so that a target that cannot be written is
 // found out before the work and not after it; commit() moves it into place. Without commit() the
-// destructor removes it.
+// destructor removes it. A target that is a symbolic link stays one, a file that is replaced keeps
+// its permissions.
 class AtomicFile {
  public:
-  // Throws InputError, naming the target, if no file can be made there.
-  explicit AtomicFile(std::filesystem::path target);
+  // Throws InputError, naming the target, if no file can be made there or if it is something other
+  // than a regular file.
+  explicit AtomicFile(const std::filesystem::path& target);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;

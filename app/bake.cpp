@@ -1,5 +1,7 @@
 #include "app/bake.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -78,10 +80,14 @@ BakedScene bake(const Mesh& mesh, const SurfaceChoice& choice) {
     high = glm::max(high, p);
   }
   scene.origin = low + (high - low) * 0.5;
-  // Squares of distances must stay finite in single precision.
-  constexpr double largest = 1e18;
-  if (!(glm::distance(low, high) < largest)) {
-    throw InputError("the model spans more than 1e18 units, too much for single precision.");
+  // The kernels form fourth powers of lengths in single precision, which holds 1e-38 to 1e38.
+  constexpr double smallest = 1e-9;
+  constexpr double largest = 1e9;
+  scene.extent = glm::distance(low, high) * 0.5;
+  if (!(2.0 * scene.extent >= smallest && 2.0 * scene.extent <= largest)) {
+    throw InputError(fmt::format(
+        "the model spans {:g} units; single precision needs it between {:g} and {:g}: scale it.",
+        2.0 * scene.extent, smallest, largest));
   }
   scene.triangles.reserve(mesh.triangles.size());
   for (const MeshTriangle& t : mesh.triangles) {

@@ -22,10 +22,11 @@ struct BakedScene {
   SurfaceChoice choice;
   glm::dvec3 origin{0.0};
   std::vector<Triangle> triangles;  // in the order of the mesh
+  double extent = 0.0;              // half the diagonal of that box
   double radius = 0.0;  // of the ball about `origin` that contains every triangle's Domain
 };
 
-// Pure. Throws InputError if the model is too large for single precision.
+// Pure. Throws InputError if the model is too large or too small for single precision.
 BakedScene bake(const Mesh& mesh, const SurfaceChoice& choice);
 
 // One triangle, from positions relative to the scene's origin and unit normals. Everything but the

@@ -5,7 +5,7 @@
 namespace trisect {
 namespace {
 
-// Written by glslang at build time: arrays of SPIR-V words.
+// Written at build time: arrays of SPIR-V words.
 #include "trace_list.spv.h"
 
 }  // namespace

@@ -3,10 +3,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "app/commands.h"
@@ -26,10 +29,10 @@ int fail(int code, const std::string& message) {
 struct RenderText {
   std::string surface;
   std::string solver;  // there is one
-  std::string size;
-  std::string eye;
-  std::string target;
-  std::string up;
+  std::optional<std::string> size;
+  std::optional<std::string> eye;
+  std::optional<std::string> target;
+  std::optional<std::string> up;
 };
 
 // Accepts a number from low to high, and no NaN.
@@ -37,10 +40,29 @@ CLI::Validator number_from_to(double low, double high) {
   return CLI::Validator(
       [low, high](const std::string& text) -> std::string {
         double value = 0.0;
-        if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return {};
-        return fmt::format("'{}' is not a number from {:g} to {:g}", text, low, high);
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool number = error == std::errc() && end == text.data() + text.size();
+        if (number && value >= low && value <= high) return {};
+        return fmt::format("'{}' is not a number from {} to {}", text, low, high);
       },
       "");
+}
+
+CLI::Validator whole_number_from_to(int low, int high) {
+  return CLI::Validator(
+      [low, high](const std::string& text) -> std::string {
+        int value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool number = error == std::errc() && end == text.data() + text.size();
+        if (number && value >= low && value <= high) return {};
+        return fmt::format("'{}' is not a whole number from {} to {}", text, low, high);
+      },
+      "");
+}
+
+CLI::Validator not_empty() {
+  return CLI::Validator(
+      [](const std::string& text) -> std::string { return text.empty() ? "is empty" : ""; }, "");
 }
 
 CLI::Validator one_of(const std::vector<std::string>& names) {
@@ -80,7 +102,7 @@ void add_render(CLI::App& app, RenderOptions& options, RenderText& text) {
   render
       ->add_option("--rank", options.rank,
                    "bisect: resolves a triangle's chord to 2^-N, 1 to 60, default 10")
-      ->check(number_from_to(1, 60))
+      ->check(whole_number_from_to(1, 60))
       ->type_name("N");
   render->add_option("--eye", text.eye, "Position of the camera, default: frames the model")
       ->type_name("X,Y,Z");
@@ -100,13 +122,16 @@ void add_render(CLI::App& app, RenderOptions& options, RenderText& text) {
   render
       ->add_option("--device", options.device,
                    "Vulkan device: its number in `trisect devices` or a part of its name")
+      ->check(not_empty())
       ->type_name("D");
   render->add_flag("--validation", options.validation,
                    "Run under the Vulkan validation layer, fail on any message");
   render->add_option("--runs", options.runs, "Frames to time after a warm-up, default 1")
-      ->check(number_from_to(1, 1e6))
+      ->check(whole_number_from_to(1, 1000000))
       ->type_name("N");
-  render->add_option("--stats", options.stats, "Write the figures as JSON")->type_name("FILE.json");
+  render->add_option("--stats", options.stats, "Write the figures as JSON")
+      ->check(not_empty())
+      ->type_name("FILE.json");
 }
 
 int run(int argc, char** argv) {
@@ -134,10 +159,10 @@ int run(int argc, char** argv) {
   if (app.got_subcommand("devices")) return list_devices();
   if (text.surface == "flat") options.surface = SURFACE_FLAT;
   if (text.surface == "sphere") options.surface = SURFACE_SPHERE;
-  if (!text.size.empty()) parse_size("--size", text.size, options.width, options.height);
-  if (!text.eye.empty()) options.eye = parse_triple("--eye", text.eye);
-  if (!text.target.empty()) options.target = parse_triple("--target", text.target);
-  if (!text.up.empty()) options.up = parse_triple("--up", text.up);
+  if (text.size) parse_size("--size", *text.size, options.width, options.height);
+  if (text.eye) options.eye = parse_triple("--eye", *text.eye);
+  if (text.target) options.target = parse_triple("--target", *text.target);
+  if (text.up) options.up = parse_triple("--up", *text.up);
   return render(options);
 }
 

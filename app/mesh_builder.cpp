@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <glm/gtc/constants.hpp>
 #include <unordered_map>
 #include <utility>
 
@@ -58,7 +56,8 @@ std::array<dvec3, 3> points_of(const std::array<uint32_t, 3>& vertex,
 }
 
 // Collinear within the rounding of the coordinates' differences: the longest edge's height over it
-// is less than a few units in its last place. NaN cannot occur, but overflow to infinity can.
+// is less than a few units in its last place. Numbers whose squares overflow are not: bake refuses
+// them.
 bool degenerate(const std::array<dvec3, 3>& p) {
   const double area = glm::length(area_vector(p));
   double longest = 0.0;
@@ -67,7 +66,7 @@ bool degenerate(const std::array<dvec3, 3>& p) {
     longest = std::max(longest, glm::dot(edge, edge));
   }
   constexpr double ulps = 8.0 * 2.220446049250313e-16;
-  return !(area > ulps * longest) || !std::isfinite(area);
+  return area <= ulps * longest && std::isfinite(longest);
 }
 
 double angle_at(const std::array<dvec3, 3>& p, std::size_t i) {

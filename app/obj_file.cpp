@@ -60,10 +60,31 @@ bool is_finite_number(std::string_view word) {
   return error == std::errc() && end == word.data() + word.size() && std::isfinite(value);
 }
 
-// v, v/vt, v//vn or v/vt/vn, each a whole number.
+// v, v/vt, v//vn or v/vt/vn, each a whole number in range and none of them 0.
 bool is_corner(std::string_view word) {
-  return word.find_first_not_of("+-0123456789/") == std::string_view::npos &&
-         std::count(word.begin(), word.end(), '/') <= 2;
+  for (int field = 0; field < 3; ++field) {
+    const std::string_view number = word.substr(0, word.find('/'));
+    int index = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), index);
+    const bool whole = error == std::errc() && end == number.data() + number.size() && index != 0;
+    const bool left_out = field == 1 && number.empty();
+    if (!whole && !left_out) return false;
+    if (number.size() == word.size()) return !left_out;
+    word.remove_prefix(number.size() + 1);
+  }
+  return false;
+}
+
+// Comments as spaces: the parser knows only those that are lines of their own.
+std::string without_comments(std::string_view text) {
+  std::string plain(text);
+  bool comment = false;
+  for (char& c : plain) {
+    if (c == '#') comment = true;
+    if (c == '\n' || c == '\r') comment = false;
+    if (comment) c = ' ';
+  }
+  return plain;
 }
 
 // tinyobjloader reads what it cannot parse as 0 and passes over a face without corners; such lines
@@ -76,10 +97,12 @@ void check_lines(std::string_view text, const std::string& name) {
     std::string_view line = text.substr(0, end);
     text.remove_prefix(text.substr(end).starts_with("\r\n") ? end + 2
                                                             : std::min(end + 1, text.size()));
+    const bool continued = line.ends_with('\\');
     const std::string_view key = take_word(line);
     const auto fail = [&](const std::string& what) {
       throw InputError(fmt::format("{}, line {}: {}.", name, number, what));
     };
+    if (continued) fail("a line that is continued by a backslash is not supported");
     if (key == "v" || key == "vn") {
       for (int i = 0; i < 3; ++i) {
         const std::string_view word = take_word(line);
@@ -130,9 +153,10 @@ struct Reader {
 
 }  // namespace
 
-ObjFile parse_obj(std::string_view text, const std::string& name) {
+ObjFile parse_obj(std::string_view file_text, const std::string& name) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  if (file_text.starts_with(byte_order_mark)) file_text.remove_prefix(byte_order_mark.size());
+  const std::string text = without_comments(file_text);
   check_lines(text, name);
 
   CountingBuffer buffer(text);

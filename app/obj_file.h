@@ -31,6 +31,6 @@ struct ObjFile {
 ObjFile read_obj(const std::filesystem::path& path);
 
 // The same for a file's text; `name` stands for the file in messages.
-ObjFile parse_obj(std::string_view text, const std::string& name);
+ObjFile parse_obj(std::string_view file_text, const std::string& name);
 
 }  // namespace trisect

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <cmath>
 #include <string_view>
 #include <system_error>
 
@@ -51,8 +50,12 @@ glm::dvec3 parse_triple(const std::string& option, const std::string& text) {
   const bool parsed = take_number(rest, value.x) && take_character(rest, ',') &&
                       take_number(rest, value.y) && take_character(rest, ',') &&
                       take_number(rest, value.z) && rest.empty();
-  if (!parsed || !std::isfinite(value.x + value.y + value.z)) {
-    throw UsageError(fmt::format("{}: '{}' is not three numbers such as 1,2.5,-3.", option, text));
+  // What the bake allows a model, and a good way beyond; NaN is not within it.
+  constexpr double largest = 1e12;
+  const glm::dvec3 size = glm::abs(value);
+  if (!parsed || !(size.x <= largest && size.y <= largest && size.z <= largest)) {
+    throw UsageError(fmt::format("{}: '{}' is not three numbers such as 1,2.5,-3 of at most {:g}.",
+                                 option, text, largest));
   }
   return value;
 }

@@ -34,7 +34,8 @@ const char* surface_name(uint surface);
 void parse_size(const std::string& option, const std::string& text, uint32_t& width,
                 uint32_t& height);
 
-// "1,-2.5,3e2". Throws UsageError, naming the option, for anything but three finite numbers.
+// "1,-2.5,3e2". Throws UsageError, naming the option, for anything but three numbers of at most
+// 1e12.
 glm::dvec3 parse_triple(const std::string& option, const std::string& text);
 
 }  // namespace trisect

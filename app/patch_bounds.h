@@ -25,7 +25,9 @@ namespace trisect {
 //         90 degrees or more off the face), the displacement's limit, the longest edge, bounds it.
 Ball bound_patch(uint surface, const Triangle& tri, double alpha);
 
-// Relative to the radius plus the distance from the origin: some ten roundings to single precision.
+// Relative to the radius plus the distance from the origin: some ten roundings to single precision,
+// those of the baked numbers and of a point on the surface. How far a kernel's own test of a ray
+// against the ball is off is the kernel's affair.
 constexpr double kBoundSlack = 1e-6;
 
 }  // namespace trisect

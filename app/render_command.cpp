@@ -2,7 +2,11 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #include "app/atomic_file.h"
 #include "app/commands.h"
@@ -40,10 +44,48 @@ TraceSettings settings_for(const RenderOptions& options, const Mesh& mesh,
   return settings;
 }
 
+// Throws UsageError if two of the files are the same, or if an output is the model.
+void expect_distinct(const RenderOptions& options) {
+  const auto expect = [](const std::string& a, const std::string& b) {
+    std::error_code error;
+    const auto resolved = [&](const std::string& path) {
+      return std::filesystem::weakly_canonical(path, error);
+    };
+    if (resolved(a) == resolved(b)) {
+      throw UsageError(fmt::format("{} and {} are the same file.", a, b));
+    }
+  };
+  expect(options.output, options.model);
+  if (options.stats.empty()) return;
+  expect(options.stats, options.model);
+  expect(options.stats, options.output);
+}
+
+// Renders with validation on or off, and returns the layer's messages, those of the clean-up among
+// them.
+std::vector<std::string> trace(const RenderOptions& options, const BakedScene& scene,
+                               const TraceParams& params, bool aovs, Frame& frame,
+                               RenderStatistics& statistics) {
+  const gpu::Instance instance(options.validation);
+  {
+    const gpu::Device device(instance, options.device);
+    statistics.device = device.report().name;
+    statistics.driver = device.report().driver;
+    VulkanTracer tracer(device, scene, options.width, options.height, aovs);
+    statistics.upload_ms = tracer.upload_ms();
+    tracer.render(params, frame, stop_if_interrupted);
+    for (uint32_t run = 0; run < options.runs; ++run) {
+      statistics.frames.push_back(tracer.render(params, frame, stop_if_interrupted));
+    }
+  }
+  return instance.log().messages();
+}
+
 }  // namespace
 
 int render(const RenderOptions& options) {
   const ImageFormat format = image_format(options.output);
+  expect_distinct(options);
   RenderStatistics statistics;
   const BuiltMesh built = timed(statistics.load_ms, [&] {
     return build_mesh(read_obj(options.model), options.model, options.crease);
@@ -58,19 +100,9 @@ int render(const RenderOptions& options) {
   std::optional<AtomicFile> stats;
   if (!options.stats.empty()) stats.emplace(options.stats);
 
-  const gpu::Instance instance(options.validation);
-  const gpu::Device device(instance, options.device);
-  statistics.device = device.report().name;
-  statistics.driver = device.report().driver;
   Frame frame;
-  {
-    VulkanTracer tracer(device, scene, options.width, options.height, format == ImageFormat::exr);
-    statistics.upload_ms = tracer.upload_ms();
-    tracer.render(params, frame, stop_if_interrupted);
-    for (uint32_t run = 0; run < options.runs; ++run) {
-      statistics.frames.push_back(tracer.render(params, frame, stop_if_interrupted));
-    }
-  }
+  const std::vector<std::string> messages =
+      trace(options, scene, params, format == ImageFormat::exr, frame, statistics);
   statistics.patches = scene.triangles.size();
   statistics.hits = frame.hits();
 
@@ -79,14 +111,11 @@ int render(const RenderOptions& options) {
   } else {
     write_exr(frame, image);
   }
+  if (stats) stats->write(to_json(options, statistics));
   image.commit();
-  if (stats) {
-    stats->write(to_json(options, statistics));
-    stats->commit();
-  }
+  if (stats) stats->commit();
   fmt::print("{}{}\n", to_text(options, statistics), options.output);
 
-  const std::vector<std::string> messages = instance.log().messages();
   for (const std::string& message : messages) fmt::print(stderr, "validation: {}\n", message);
   return messages.empty() ? exit_done : exit_internal;
 }

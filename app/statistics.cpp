@@ -56,16 +56,18 @@ std::string to_json(const RenderOptions& options, const RenderStatistics& statis
 std::string to_text(const RenderOptions& options, const RenderStatistics& statistics) {
   const Spread gpu = spread_over(statistics.frames, &FrameTime::gpu_ms);
   const Spread wall = spread_over(statistics.frames, &FrameTime::wall_ms);
-  const std::string surface = options.surface == SURFACE_PHONG
-                                  ? fmt::format("phong (alpha {:g})", options.alpha)
-                                  : surface_name(options.surface);
+  const std::string surface =
+      options.surface == SURFACE_FLAT ? "flat, met without a march"
+      : options.surface == SURFACE_PHONG
+          ? fmt::format("phong (alpha {:g}), bisection at Rank {}", options.alpha, options.rank)
+          : fmt::format("sphere, bisection at Rank {}", options.rank);
   return fmt::format(
       "device {}, driver {}\n"
-      "{} patches, surface {}, bisection at Rank {}, {}x{}: {} pixels hit\n"
+      "{} patches, surface {}, {}x{}: {} pixels hit\n"
       "load {:.1f} ms, bake {:.1f} ms, upload {:.1f} ms, gpu {:.1f} ms, wall {:.1f} ms{}\n",
-      statistics.device, statistics.driver, statistics.patches, surface, options.rank,
-      options.width, options.height, statistics.hits, statistics.load_ms, statistics.bake_ms,
-      statistics.upload_ms, gpu.median, wall.median,
+      statistics.device, statistics.driver, statistics.patches, surface, options.width,
+      options.height, statistics.hits, statistics.load_ms, statistics.bake_ms, statistics.upload_ms,
+      gpu.median, wall.median,
       options.runs > 1 ? fmt::format(" (medians of {} runs, gpu {:.1f} to {:.1f} ms)", options.runs,
                                      gpu.min, gpu.max)
                        : "");

@@ -23,6 +23,8 @@ namespace {
 #include "shaders/linear.glsl"
 #include "shaders/surface.glsl"
 #include "shaders/thesis_field.glsl"
+// The march needs the fields above.
+#include "shaders/bisect.glsl"
 }  // namespace
 #pragma GCC diagnostic pop
 #undef real

@@ -14,8 +14,8 @@ TraceParams make_params(const BakedScene& scene, const TraceSettings& settings) 
   params.resolution = static_cast<float>(std::ldexp(1.0, -static_cast<int>(settings.rank)));
   params.min_delta = static_cast<float>(settings.min_delta);
   params.light = vec4(glm::vec3(glm::normalize(settings.light)), 0.0F);
-  // Four cells of the grid to the scene's radius.
-  params.grid = vec4(0.0F, 0.0F, 0.0F, static_cast<float>(4.0 / scene.radius));
+  // Four cells of the grid to half the diagonal of the vertices' box, whatever the surface.
+  params.grid = vec4(0.0F, 0.0F, 0.0F, static_cast<float>(4.0 / scene.extent));
   // Nothing nearer than a thousandth of the scene's size, nothing beyond the scene.
   const double near = scene.radius * 1e-3;
   const double far = glm::distance(settings.camera.eye, scene.origin) + scene.radius + near;

@@ -15,8 +15,8 @@ struct TraceSettings {
   uint32_t height = 600;
   Camera camera;
   uint32_t rank = 10;
-  // The listing's minDelta, whose value is lost: this one closes the holes at Rank 16, not before,
-  // as the thesis's pictures do at the sizes of its models.
+  // The listing's minDelta, whose value is lost. With this one the holes close at Rank 16, whatever
+  // the chord; like the listing's 1e-3 it is absolute, so it suits models of a size of about 1.
   double min_delta = 1e-4;
   glm::dvec3 light{0.35, 0.8, 0.5};  // toward the light, any length
 };

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <span>
-#include <vector>
+#include <stdexcept>
 
 #include "app/kernels.h"
 #include "vk/result.h"
@@ -16,19 +16,17 @@ namespace {
 // Bytes moved between host and device at a time.
 constexpr std::size_t kStagingBytes = std::size_t{32} << 20U;
 
-// The first submit of a tracer, before anything is known of its cost.
-constexpr uint32_t kFirstGroups = 8;
-
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
       .count();
 }
 
-// Rows of the image that the output buffers hold at a time: all of them if the device's largest
-// storage buffer allows, else a whole number of workgroups.
-uint32_t rows_in_a_band(const gpu::Device& device, uint32_t width, uint32_t height, bool aovs) {
+// Rows of the image that the output buffers hold at a time: all of them if buffers of so many bytes
+// allow, else a whole number of workgroups.
+uint32_t rows_in_a_band(const gpu::Device& device, std::size_t limit, uint32_t width,
+                        uint32_t height, bool aovs) {
   const std::size_t row = std::size_t{width} * (aovs ? sizeof(PixelAovs) : sizeof(vec4));
-  const std::size_t fit = device.limits().maxStorageBufferRange / row / TILE_SIZE * TILE_SIZE;
+  const std::size_t fit = limit / row / TILE_SIZE * TILE_SIZE;
   if (fit == 0) {
     throw gpu::Error(fmt::format("device {} cannot hold {} rows of {} pixels in one buffer.",
                                  device.report().name, TILE_SIZE, width));
@@ -36,14 +34,13 @@ uint32_t rows_in_a_band(const gpu::Device& device, uint32_t width, uint32_t heig
   return static_cast<uint32_t>(std::min<std::size_t>(fit, height));
 }
 
-std::size_t triangle_bytes(const gpu::Device& device, const BakedScene& scene) {
+std::size_t triangle_bytes(const gpu::Device& device, std::size_t limit, const BakedScene& scene) {
   const std::size_t bytes = scene.triangles.size() * sizeof(Triangle);
-  const std::size_t limit = device.limits().maxStorageBufferRange;
   if (bytes > limit) {
-    throw gpu::Error(fmt::format(
-        "device {} has storage buffers of at most {} MiB, which hold {} triangles; the model has "
-        "{}.",
-        device.report().name, limit >> 20U, limit / sizeof(Triangle), scene.triangles.size()));
+    throw gpu::Error(
+        fmt::format("device {} has storage buffers of at most {} bytes, which hold {} triangles; "
+                    "the model has {}.",
+                    device.report().name, limit, limit / sizeof(Triangle), scene.triangles.size()));
   }
   return bytes;
 }
@@ -51,27 +48,28 @@ std::size_t triangle_bytes(const gpu::Device& device, const BakedScene& scene) {
 }  // namespace
 
 VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, uint32_t width,
-                           uint32_t height, bool aovs)
+                           uint32_t height, bool aovs, std::size_t buffer_limit)
     : device_(device),
       width_(width),
       height_(height),
       aovs_(aovs),
-      band_rows_(rows_in_a_band(device, width, height, aovs)),
+      buffer_limit_(std::min<std::size_t>(buffer_limit, device.limits().maxStorageBufferRange)),
+      band_rows_(rows_in_a_band(device, buffer_limit_, width, height, aovs)),
       kernel_(device, kTraceListSpirv, trace_list_interface(),
               {{CONSTANT_SURFACE, scene.choice.surface}, {CONSTANT_AOVS, aovs ? 1U : 0U}},
               "trace_list"),
       commands_(device),
       staging_(device, kStagingBytes),
       params_(device, sizeof(TraceParams), gpu::Memory::device, "trace parameters"),
-      triangles_(device, triangle_bytes(device, scene), gpu::Memory::device, "triangles"),
+      triangles_(device, triangle_bytes(device, buffer_limit_, scene), gpu::Memory::device,
+                 "triangles"),
       colors_(device, std::size_t{width} * band_rows_ * sizeof(vec4), gpu::Memory::device,
               "colors"),
       // A binding wants a buffer; without AOVs nothing is written to it.
       aovs_buffer_(device,
                    aovs ? std::size_t{width} * band_rows_ * sizeof(PixelAovs) : sizeof(PixelAovs),
                    gpu::Memory::device, "AOVs"),
-      bound_(device, kernel_, {&params_, &triangles_, &colors_, &aovs_buffer_}),
-      groups_per_submit_(kFirstGroups) {
+      bound_(device, kernel_, {&params_, &triangles_, &colors_, &aovs_buffer_}) {
   const auto start = std::chrono::steady_clock::now();
   staging_.upload(commands_, std::as_bytes(std::span(scene.triangles)), triangles_);
   upload_ms_ = milliseconds_since(start);
@@ -80,7 +78,7 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
 FrameTime VulkanTracer::render(const TraceParams& params, Frame& frame,
                                const std::function<void()>& between_submits) {
   if (params.width != width_ || params.height != height_) {
-    throw gpu::Error("the trace parameters are not for this tracer's image size");
+    throw std::logic_error("the trace parameters are not for this tracer's image size");
   }
   frame.width = width_;
   frame.height = height_;
@@ -115,18 +113,14 @@ double VulkanTracer::render_band(uint32_t first_row, uint32_t rows,
   double gpu_ms = 0.0;
   for (uint32_t group = begin; group < end;) {
     const uint32_t most = device_.limits().maxComputeWorkGroupCount[0];
-    const uint32_t count = std::min({groups_per_submit_, end - group, most});
+    const uint32_t count = std::min({budget_.groups(), end - group, most});
     const TilePush tile{group, first_row};
     commands_.begin();
     commands_.dispatch(kernel_, bound_, std::as_bytes(std::span(&tile, 1)), count);
     const double ms = commands_.submit_and_wait();
     gpu_ms += ms;
     group += count;
-    // As many groups as the budget allows at this cost, and never much more than what is known to
-    // be safe.
-    const double affordable = static_cast<double>(count) * kSubmitMs / std::max(ms, 1e-3);
-    groups_per_submit_ = static_cast<uint32_t>(
-        std::clamp(affordable, 1.0, 8.0 * static_cast<double>(std::max(count, kFirstGroups))));
+    budget_.record(count, ms);
     if (between_submits) between_submits();
   }
   return gpu_ms;

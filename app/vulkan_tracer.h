@@ -3,11 +3,12 @@
 
 #include <cstdint>
 #include <functional>
-#include <optional>
+#include <limits>
 
 #include "app/bake.h"
 #include "app/frame.h"
 #include "app/shared.h"
+#include "app/submit_budget.h"
 #include "vk/commands.h"
 
 namespace trisect {
@@ -21,21 +22,17 @@ struct FrameTime {
 class VulkanTracer {
  public:
   // Uploads the scene and compiles the kernel for its surface. width, height: pixels of the frames.
-  // aovs: whether frames have more than colour. Throws gpu::Error if the device cannot hold the
-  // scene.
+  // aovs: whether frames have more than colour. buffer_limit: the most bytes a buffer may have, if
+  // less than the device's own limit. Throws gpu::Error if the device cannot hold the scene.
   VulkanTracer(const gpu::Device& device, const BakedScene& scene, uint32_t width, uint32_t height,
-               bool aovs);
+               bool aovs, std::size_t buffer_limit = std::numeric_limits<std::size_t>::max());
 
-  // Renders into `frame`, in submits of about kSubmitMs. params.width and .height must be the
+  // Renders into `frame`, in submits of bounded time. params.width and .height must be the
   // tracer's. between_submits, if set, is called between any two; what it throws stops the frame.
   FrameTime render(const TraceParams& params, Frame& frame,
                    const std::function<void()>& between_submits = {});
 
   [[nodiscard]] double upload_ms() const { return upload_ms_; }
-
-  // A submit should keep the device no longer than this: drivers reset a device that does not
-  // answer for about two seconds, and a desktop that shares it stutters long before.
-  static constexpr double kSubmitMs = 100.0;
 
  private:
   double render_band(uint32_t first_row, uint32_t rows,
@@ -45,6 +42,7 @@ class VulkanTracer {
   uint32_t width_;
   uint32_t height_;
   bool aovs_;
+  std::size_t buffer_limit_;
   uint32_t band_rows_;
   gpu::Kernel kernel_;
   gpu::Commands commands_;
@@ -55,7 +53,7 @@ class VulkanTracer {
   gpu::Buffer aovs_buffer_;
   gpu::BoundBuffers bound_;
   double upload_ms_ = 0.0;
-  uint32_t groups_per_submit_;
+  SubmitBudget budget_;
 };
 
 }  // namespace trisect

@@ -18,6 +18,7 @@ measure() {
 # figure PATH: a figure of the last measurement, such as .hits or .gpu_ms.median.
 figure() { jq -r "$1" "$work/a.json"; }
 
+scripts/unpack-mesa.sh >/dev/null
 {
   measure newer sphere-20 phong 10 1
   newer=$(figure .driver)

@@ -16,4 +16,9 @@ vec3 weigh(vec3 w, vec3 a, vec3 b, vec3 c) { return a * w.x + b * w.y + c * w.z;
 
 // Angle between a and b, 0 to pi. Where the thesis has acos of a dot product, which loses half the digits
 // near 0, this is Kahan's form.
-real AngleBetween(vec3 a, vec3 b) { return atan(length3(cross3(a, b)), dot3(a, b)); }
+// A vector of length 0 is at angle 0 to all: atan(0, 0) is undefined in GLSL.
+real AngleBetween(vec3 a, vec3 b) {
+  real sine = length3(cross3(a, b));
+  real cosine = dot3(a, b);
+  return sine == real(0.0) && cosine == real(0.0) ? real(0.0) : atan(sine, cosine);
+}

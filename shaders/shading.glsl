@@ -7,16 +7,24 @@ vec3 sky(vec3 view) {
 
 real Lambert(vec3 normal, vec3 light) { return max(dot3(normalize3(normal), light), real(0.0)); }
 
+// The distance along the surface to the plane that is `away` from it, where `facing` is the cosine between their
+// normals. A plane almost parallel to the surface counts as far: a face that lies in one would be all line.
+real along_surface(real away, real facing) {
+  real sine = sqrt(max(real(1.0) - facing * facing, real(0.0)));
+  return sine > real(0.1) ? away / sine : real(1.0);
+}
+
 // 0 on the planes of a grid of unit cells, 1 away from them; the lines are a tenth of a cell wide.
 // The listing's function is lost; it enters the colour as 0.25 * grid beside a constant 0.5.
-real ShadeGrid(vec3 pos) {
-  vec3 away = abs(fract(pos) - real(0.5));
-  real nearest = real(0.5) - max(max(away.x, away.y), away.z);
-  return clamp((nearest - real(0.03)) / real(0.02), real(0.0), real(1.0));
+real ShadeGrid(vec3 pos, vec3 normal) {
+  vec3 away = real(0.5) - abs(fract(pos) - real(0.5));
+  vec3 n = normalize3(normal);
+  real nearest = min(min(along_surface(away.x, n.x), along_surface(away.y, n.y)), along_surface(away.z, n.z));
+  return clamp((nearest - real(0.04)) / real(0.02), real(0.0), real(1.0));
 }
 
 vec3 shade(vec3 normal, vec3 pos, vec3 light, vec4 grid) {
   real f = Lambert(normal, light);
-  real g = ShadeGrid((pos - vec3(grid)) * grid.w);
+  real g = ShadeGrid((pos - vec3(grid)) * grid.w, normal);
   return vec3((real(0.5) + g * real(0.25)) * f + real(0.25));
 }

@@ -107,7 +107,8 @@ real sphere_derivative(vec3 T, vec3 dT, vec3 D, vec3 dD, real s, vec3 vertex, ve
   real xx = dot3(x0, x0);
   real DD = dot3(D, D);
   if (xx == real(0.0)) return -dot3(dT, N) / dot3(D, N);
-  if (s * s * DD >= longest * longest) return -s * dot3(D, dD) / DD;
+  real limit = longest / length3(D);
+  if (abs(s) >= limit) return -s * dot3(D, dD) / DD;
   real c = blended_curvature(T, vertex, b, data);
   real dc = (data.x - data.y) * dot3(cross3(turn, x0), dT) / (xx * data.z);
   real A = c * DD;

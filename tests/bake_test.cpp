@@ -83,9 +83,14 @@ TEST(Bake, RadiusContainsEveryDomain) {
 }
 
 TEST(Bake, RefusesWhatSinglePrecisionCannotHold) {
-  const Mesh mesh = test::one_triangle({dvec3(0, 0, 0), dvec3(1e30, 0, 0), dvec3(0, 1e30, 0)},
-                                       {dvec3(0, 0, 1), dvec3(0, 0, 1), dvec3(0, 0, 1)});
-  EXPECT_THROW(bake(mesh, {}), InputError);
+  const auto triangle = [](double size) {
+    return test::one_triangle({dvec3(0, 0, 0), dvec3(size, 0, 0), dvec3(0, size, 0)},
+                              {dvec3(0, 0, 1), dvec3(0, 0, 1), dvec3(0, 0, 1)});
+  };
+  for (const double size : {1e-200, 1e-10, 1e10, 1e200}) {
+    EXPECT_THROW(bake(triangle(size), {}), InputError) << size;
+  }
+  for (const double size : {1e-8, 1e8}) EXPECT_NO_THROW(bake(triangle(size), {})) << size;
 }
 
 }  // namespace

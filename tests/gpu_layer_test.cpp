@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
+#include <stdexcept>
 #include <vector>
 
 #include "app/kernels.h"
@@ -100,11 +101,11 @@ TEST_F(GpuLayer, ChecksWhatADispatchIsGiven) {
   const Device& device = test::validated_device();
   const Kernel kernel(device, kTraceListSpirv, trace_list_interface(), {}, "trace_list");
   const Buffer buffer(device, 1024, Memory::device, "scratch");
-  EXPECT_THROW(BoundBuffers(device, kernel, {&buffer}), Error);
+  EXPECT_THROW(BoundBuffers(device, kernel, {&buffer}), std::logic_error);
   const BoundBuffers bound(device, kernel, {&buffer, &buffer, &buffer, &buffer});
   Commands commands(device);
   commands.begin();
-  EXPECT_THROW(commands.dispatch(kernel, bound, {}, 1), Error);
+  EXPECT_THROW(commands.dispatch(kernel, bound, {}, 1), std::logic_error);
   commands.submit_and_wait();
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <png.h>
+#include <sys/stat.h>
 
 #include <fstream>
 
@@ -122,8 +123,29 @@ TEST(AtomicFile, AppearsWholeOrNotAtAll) {
   EXPECT_EQ(text, "whole");
 }
 
+TEST(AtomicFile, KeepsLinksAndPermissions) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "real.txt") << "old";
+  using std::filesystem::perms;
+  const perms mode = perms::owner_read | perms::owner_write | perms::group_read;
+  std::filesystem::permissions(folder / "real.txt", mode);
+  std::filesystem::create_symlink("real.txt", folder / "link.txt");
+  AtomicFile file(folder / "link.txt");
+  file.write("new");
+  file.commit();
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.txt"));
+  EXPECT_EQ(std::filesystem::status(folder / "real.txt").permissions(), mode);
+  std::string text;
+  std::ifstream(folder / "real.txt") >> text;
+  EXPECT_EQ(text, "new");
+}
+
 TEST(AtomicFile, RefusesAtOnceWhatCannotBeWritten) {
   const test::TemporaryFolder folder;
+  // What is no regular file must not be replaced by one.
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_THROW(AtomicFile(folder / "pipe"), InputError);
+  EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
   EXPECT_THROW(AtomicFile(folder / "no-such-folder" / "a.txt"), InputError);
   EXPECT_THROW(AtomicFile(folder.path()), InputError);
 }

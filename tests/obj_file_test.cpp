@@ -89,6 +89,12 @@ TEST(ObjFile, TakesLineEndsMarksAndTheEndOfTheFileAsTheyCome) {
   }
 }
 
+TEST(ObjFile, PassesOverComments) {
+  const ObjFile file = parse("# v 9\nv 0 0 0 # origin\nv 1 0 0\nv 0 1 0#\nf 1 2 3 # f 1 2\n");
+  EXPECT_EQ(file.positions.size(), 3U);
+  EXPECT_EQ(file.sizes, std::vector<uint32_t>{3});
+}
+
 TEST(ObjFile, KeepsDoublePrecision) {
   const ObjFile file = parse("v 1000000.0000001 -1e-3 +2.5E2\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   // The parser sums decimal digits in double precision: right to some ten units in the last place.
@@ -114,10 +120,16 @@ TEST(ObjFile, NamesTheFileAndTheLineOfWhatIsWrong) {
             "model.obj, line 5: the face names vertex 5, but there are 4 so far.");
   EXPECT_EQ(complaint(square + "\n# note\nf 1 2 -5\n"),
             "model.obj, line 7: the face names vertex -5, but there are 4 so far.");
-  EXPECT_EQ(complaint(square + "f 0 1 2\n"),
-            "model.obj, line 5: the face names vertex 0, but there are 4 so far.");
+  EXPECT_EQ(complaint(square + "f 0 1 2\n"), "model.obj, line 5: '0' is not a corner of a face.");
   EXPECT_EQ(complaint(square + "vn 0 0 1\nf 1//1 2//1 3//2\n"),
             "model.obj, line 6: the face names normal 2, but there are 1 so far.");
+  for (const char* corner :
+       {"4294967297", "99999999999", "1-2", "1//0", "1/", "1//", "1/2/3/4", "-", "/1"}) {
+    EXPECT_EQ(complaint(square + "vn 0 0 1\nf 1 2 " + corner + "\n"),
+              "model.obj, line 6: '" + std::string(corner) + "' is not a corner of a face.");
+  }
+  EXPECT_EQ(complaint(square + "f 1 2 \\\n3\n"),
+            "model.obj, line 5: a line that is continued by a backslash is not supported.");
   EXPECT_EQ(complaint(square), "model.obj: the file has no faces.");
   EXPECT_EQ(complaint(""), "model.obj: the file has no faces.");
 }

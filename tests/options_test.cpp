@@ -21,7 +21,8 @@ TEST(ParseSize, TakesWidthAndHeight) {
 
 TEST(ParseTriple, TakesThreeNumbers) {
   EXPECT_EQ(parse_triple("--eye", "1,-2.5,3e2"), glm::dvec3(1.0, -2.5, 300.0));
-  for (const char* text : {"", "1,2", "1,2,3,4", "1,2,", "a,b,c", "1 2 3", "nan,0,0", "1,inf,0"}) {
+  for (const char* text :
+       {"", "1,2", "1,2,3,4", "1,2,", "a,b,c", "1 2 3", "nan,0,0", "1,inf,0", "1e13,0,0"}) {
     EXPECT_THROW(parse_triple("--eye", text), UsageError) << text;
   }
 }
@@ -31,7 +32,8 @@ TEST(ParseTriple, NamesTheOption) {
     parse_triple("--up", "1,2");
     FAIL() << "no error";
   } catch (const UsageError& error) {
-    EXPECT_STREQ(error.what(), "--up: '1,2' is not three numbers such as 1,2.5,-3.");
+    EXPECT_STREQ(error.what(),
+                 "--up: '1,2' is not three numbers such as 1,2.5,-3 of at most 1e+12.");
   }
 }
 

@@ -21,7 +21,8 @@ class Program : public ::testing::Test {
   test::ProgramRun render(const std::vector<std::string>& more = {},
                           const std::string& output = "a.png") {
     std::vector<std::string> arguments{
-        "render", test::asset_path("sphere-20"), "-o", folder_ / output, "--size", "32x24"};
+        "render", test::asset_path("sphere-20"), "-o", folder_ / output, "--validation", "--size",
+        "32x24"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_trisect(arguments);
   }
@@ -45,7 +46,7 @@ class Program : public ::testing::Test {
 };
 
 TEST_F(Program, RendersAPicture) {
-  const test::ProgramRun run = render({"--validation"});
+  const test::ProgramRun run = render();
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(run.err, "");
   EXPECT_NE(run.out.find("20 triangles, 12 vertices"), std::string::npos) << run.out;
@@ -100,7 +101,13 @@ TEST_F(Program, ComplainsAboutUsageWithCode2) {
   expect_complaint(render({"--alpha", "much"}), 2, "--alpha");
   expect_complaint(render({"--alpha", "nan"}), 2, "--alpha");
   expect_complaint(render({"--runs", "0"}), 2, "--runs");
+  expect_complaint(render({"--rank", "1.5"}), 2, "--rank: '1.5' is not a whole number");
   expect_complaint(render({"--size", "32"}), 2, "--size");
+  expect_complaint(render({"--size", ""}), 2, "--size");
+  expect_complaint(render({"--stats", ""}), 2, "--stats");
+  expect_complaint(render({"--device", ""}), 2, "--device");
+  expect_complaint(render({"--stats", folder_ / "a.png"}), 2, "the same file");
+  expect_complaint(render({"--eye", "1e30,0,0"}), 2, "--eye");
   expect_complaint(render({"--eye", "1,2"}), 2, "--eye");
   expect_complaint(render({"--eye", "0,0,0", "--target", "0,0,0"}), 2, "--eye");
   expect_complaint(render({"--nonsense"}), 2, "--nonsense");
@@ -119,7 +126,10 @@ TEST_F(Program, ComplainsAboutFilesWithCode3) {
 
 TEST_F(Program, ComplainsAboutDevicesWithCode4) {
   expect_complaint(render({"--device", "99"}), 4, "no Vulkan device is called '99'");
-  expect_complaint(render({"--device", "no such device"}), 4, "llvmpipe");
+  // The refusal lists the devices by number and name.
+  const std::string listed = run_trisect({"devices"}).out;
+  const std::string first = "0 " + listed.substr(3, listed.find(' ', 3) - 3);
+  expect_complaint(render({"--device", "no such device"}), 4, first);
   const std::vector<std::string> no_driver{"VK_DRIVER_FILES=/nonexistent.json",
                                            "VK_ICD_FILENAMES=/nonexistent.json"};
   expect_complaint(run_trisect({"devices"}, no_driver), 4, "Vulkan");
@@ -134,6 +144,20 @@ TEST_F(Program, StopsWhenInterruptedAndLeavesNothing) {
        "--runs", "50", "--stats", folder_ / "s.json"},
       1500);
   expect_complaint(run, 130, "interrupted");
+}
+
+TEST_F(Program, RefusesToOverwriteItsModel) {
+  std::filesystem::copy_file(test::asset_path("cube"), folder_ / "model.png");
+  const test::ProgramRun run =
+      run_trisect({"render", folder_ / "model.png", "-o", folder_ / "." / "model.png"});
+  EXPECT_EQ(run.exit_code, 2) << run.err;
+  EXPECT_EQ(std::filesystem::file_size(folder_ / "model.png"),
+            std::filesystem::file_size(test::asset_path("cube")));
+}
+
+TEST_F(Program, LastOfARepeatedOptionCounts) {
+  ASSERT_EQ(render({"--size", "16x8"}, "a.exr").exit_code, 0);
+  EXPECT_EQ(test::read_exr(folder_ / "a.exr").width, 16U);
 }
 
 TEST_F(Program, KeepsTheOldFileWhenItFails) {

@@ -189,9 +189,30 @@ TEST(SphereHeight, StopsAtTheLongestEdge) {
   EXPECT_NEAR(std::abs(s) * glm::length(D), 2.0, 1e-12);
 }
 
+TEST(Bisect, ConvergesOnTheSphere) {
+  const in_double::Triangle tri = sphere_patch();
+  const dvec3 n(tri.TriNormal);
+  const dvec3 origin = n * 3.0;
+  const in_double::vec2 bounds = in_double::rsi(origin - dvec3(tri.Domain), -n, tri.Domain.w);
+  double depth = 0.0;
+  dvec3 weights(0.0);
+  ASSERT_TRUE(in_double::chord_ahead(bounds));
+  ASSERT_TRUE(in_double::bisect(SURFACE_SPHERE, tri, bounds, origin, -n, 40, std::ldexp(1.0, -40),
+                                1e-6, 0.0, 10.0, depth, weights));
+  EXPECT_NEAR(depth, 2.0, 4e-7);  // what the rounding of the baked numbers leaves
+  EXPECT_LT(glm::distance(weights, dvec3(1.0 / 3.0)), 1e-6);
+  // Nearer hits have been found already, or the surface is seen from behind: no hit.
+  EXPECT_FALSE(in_double::bisect(SURFACE_SPHERE, tri, bounds, origin, -n, 40, std::ldexp(1.0, -40),
+                                 1e-6, 0.0, 1.9, depth, weights));
+  const in_double::vec2 behind = in_double::rsi(-n - dvec3(tri.Domain), n, tri.Domain.w);
+  EXPECT_FALSE(in_double::bisect(SURFACE_SPHERE, tri, behind, -n, n, 40, std::ldexp(1.0, -40), 1e-6,
+                                 0.0, 10.0, depth, weights));
+}
+
 TEST(AngleBetween, IsExactNearZero) {
   EXPECT_NEAR(in_double::AngleBetween({1, 0, 0}, {1, 1e-10, 0}), 1e-10, 1e-24);
   EXPECT_NEAR(in_double::AngleBetween({1, 0, 0}, {-1, 0, 0}), std::acos(-1.0), 1e-15);
+  EXPECT_EQ(in_double::AngleBetween({0, 0, 0}, {1, 0, 0}), 0.0);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstring>
 #include <limits>
+#include <stdexcept>
 #include <string>
 
 #include "vk/result.h"
@@ -44,8 +45,8 @@ void Commands::begin() {
 void Commands::dispatch(const Kernel& kernel, const BoundBuffers& buffers,
                         std::span<const std::byte> push, uint32_t groups_x) {
   if (push.size() != kernel.interface().push_size) {
-    throw Error("a kernel with " + std::to_string(kernel.interface().push_size) +
-                " bytes of push constants got " + std::to_string(push.size()));
+    throw std::logic_error("a kernel with " + std::to_string(kernel.interface().push_size) +
+                           " bytes of push constants got " + std::to_string(push.size()));
   }
   // The kernel reads what copies and earlier dispatches wrote.
   order_after_writes();

@@ -149,8 +149,13 @@ Instance::Instance(bool validation) : log_(std::make_unique<MessageLog>()) {
                    ", which is not installed (Debian: vulkan-validationlayers).");
   }
   debug_utils_ = has_extension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+  if (validation && !debug_utils_) {
+    throw NoDevice("--validation needs the Vulkan extension " VK_EXT_DEBUG_UTILS_EXTENSION_NAME
+                   ", which the loader does not have.");
+  }
   std::vector<const char*> extensions;
   if (debug_utils_) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+  if (validation) extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
 
   VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
   application.pApplicationName = "trisect";
@@ -179,24 +184,33 @@ Instance::Instance(bool validation) : log_(std::make_unique<MessageLog>()) {
   }
   check(created, "vkCreateInstance");
 
-  if (validation) {
-    messenger.pNext = nullptr;
-    const auto create = instance_function<PFN_vkCreateDebugUtilsMessengerEXT>(
-        instance_, "vkCreateDebugUtilsMessengerEXT");
-    TRISECT_VK(create(instance_, &messenger, nullptr, &messenger_));
+  try {
+    if (validation) {
+      messenger.pNext = nullptr;
+      const auto create = instance_function<PFN_vkCreateDebugUtilsMessengerEXT>(
+          instance_, "vkCreateDebugUtilsMessengerEXT");
+      TRISECT_VK(create(instance_, &messenger, nullptr, &messenger_));
+    }
+    uint32_t count = 0;
+    TRISECT_VK(vkEnumeratePhysicalDevices(instance_, &count, nullptr));
+    devices_.resize(count);
+    TRISECT_VK(vkEnumeratePhysicalDevices(instance_, &count, devices_.data()));
+  } catch (...) {
+    destroy();
+    throw;
   }
-  uint32_t count = 0;
-  TRISECT_VK(vkEnumeratePhysicalDevices(instance_, &count, nullptr));
-  devices_.resize(count);
-  TRISECT_VK(vkEnumeratePhysicalDevices(instance_, &count, devices_.data()));
 }
 
 Instance::~Instance() {
+  destroy();
+}
+
+void Instance::destroy() {
   if (messenger_ != VK_NULL_HANDLE) {
     instance_function<PFN_vkDestroyDebugUtilsMessengerEXT>(
         instance_, "vkDestroyDebugUtilsMessengerEXT")(instance_, messenger_, nullptr);
   }
-  if (instance_ != VK_NULL_HANDLE) vkDestroyInstance(instance_, nullptr);
+  vkDestroyInstance(instance_, nullptr);
 }
 
 std::vector<DeviceReport> Instance::reports() const {

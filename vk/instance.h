@@ -56,6 +56,8 @@ class Instance {
   [[nodiscard]] bool can_name_objects() const { return debug_utils_; }
 
  private:
+  void destroy();
+
   VkInstance instance_ = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   std::unique_ptr<MessageLog> log_;

@@ -1,5 +1,7 @@
 #include "vk/kernel.h"
 
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "vk/result.h"
@@ -10,6 +12,7 @@ Kernel::Kernel(const Device& device, std::span<const uint32_t> spirv, KernelInte
                const std::vector<Specialization>& constants, const std::string& name)
     : interface_(std::move(interface)) {
   std::vector<VkDescriptorSetLayoutBinding> bindings;
+  bindings.reserve(interface_.bindings.size());
   for (const Binding& binding : interface_.bindings) {
     bindings.push_back({binding.binding, binding.type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
   }
@@ -57,6 +60,8 @@ Kernel::Kernel(const Device& device, std::span<const uint32_t> spirv, KernelInte
   info.layout = layout_.get();
   TRISECT_VK(vkCreateComputePipelines(device.get(), VK_NULL_HANDLE, 1, &info, nullptr,
                                       pipeline_.fill(device.get())));
+  device.name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, set_layout, name);
+  device.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout_.get(), name);
   device.name(VK_OBJECT_TYPE_PIPELINE, pipeline_.get(), name);
 }
 
@@ -64,10 +69,11 @@ BoundBuffers::BoundBuffers(const Device& device, const Kernel& kernel,
                            const std::vector<const Buffer*>& buffers) {
   const std::vector<Binding>& bindings = kernel.interface().bindings;
   if (buffers.size() != bindings.size()) {
-    throw Error("a kernel with " + std::to_string(bindings.size()) + " bindings got " +
-                std::to_string(buffers.size()) + " buffers");
+    throw std::logic_error("a kernel with " + std::to_string(bindings.size()) + " bindings got " +
+                           std::to_string(buffers.size()) + " buffers");
   }
   std::vector<VkDescriptorPoolSize> sizes;
+  sizes.reserve(bindings.size());
   for (const Binding& binding : bindings) sizes.push_back({binding.type, 1});
   VkDescriptorPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   pool_info.maxSets = 1;
@@ -83,8 +89,10 @@ BoundBuffers::BoundBuffers(const Device& device, const Kernel& kernel,
   TRISECT_VK(vkAllocateDescriptorSets(device.get(), &allocation, &set_));
 
   std::vector<VkDescriptorBufferInfo> infos;
+  infos.reserve(buffers.size());
   for (const Buffer* buffer : buffers) infos.push_back({buffer->get(), 0, VK_WHOLE_SIZE});
   std::vector<VkWriteDescriptorSet> writes;
+  writes.reserve(bindings.size());
   for (std::size_t i = 0; i < bindings.size(); ++i) {
     VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
     write.dstSet = set_;

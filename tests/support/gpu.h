@@ -18,7 +18,6 @@ const gpu::Device& validated_device();
 // A test on the device, which fails on any validation message.
 class GpuTest : public ::testing::Test {
  protected:
-  void SetUp() override { validated_instance().log().clear(); }
   void TearDown() override {
     for (const std::string& message : validated_instance().log().messages()) {
       ADD_FAILURE() << "validation: " << message;
