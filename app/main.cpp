@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <type_traits>
 #include <vector>
 
 #include "app/commands.h"
@@ -35,27 +36,17 @@ struct RenderText {
   std::optional<std::string> up;
 };
 
-// Accepts a number from low to high, and no NaN.
-CLI::Validator number_from_to(double low, double high) {
+// Accepts a number from low to high, a whole one if Number is int, and no NaN.
+template <typename Number>
+CLI::Validator number_from_to(Number low, Number high) {
   return CLI::Validator(
       [low, high](const std::string& text) -> std::string {
-        double value = 0.0;
+        Number value{};
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        const bool number = error == std::errc() && end == text.data() + text.size();
-        if (number && value >= low && value <= high) return {};
-        return fmt::format("'{}' is not a number from {} to {}", text, low, high);
-      },
-      "");
-}
-
-CLI::Validator whole_number_from_to(int low, int high) {
-  return CLI::Validator(
-      [low, high](const std::string& text) -> std::string {
-        int value = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        const bool number = error == std::errc() && end == text.data() + text.size();
-        if (number && value >= low && value <= high) return {};
-        return fmt::format("'{}' is not a whole number from {} to {}", text, low, high);
+        const bool parsed = error == std::errc() && end == text.data() + text.size();
+        if (parsed && value >= low && value <= high) return {};
+        return fmt::format("'{}' is not a {}number from {} to {}", text,
+                           std::is_integral_v<Number> ? "whole " : "", low, high);
       },
       "");
 }
@@ -102,7 +93,7 @@ void add_render(CLI::App& app, RenderOptions& options, RenderText& text) {
   render
       ->add_option("--rank", options.rank,
                    "bisect: resolves a triangle's chord to 2^-N, 1 to 60, default 10")
-      ->check(whole_number_from_to(1, 60))
+      ->check(number_from_to(1, 60))
       ->type_name("N");
   render->add_option("--eye", text.eye, "Position of the camera, default: frames the model")
       ->type_name("X,Y,Z");
@@ -127,7 +118,7 @@ void add_render(CLI::App& app, RenderOptions& options, RenderText& text) {
   render->add_flag("--validation", options.validation,
                    "Run under the Vulkan validation layer, fail on any message");
   render->add_option("--runs", options.runs, "Frames to time after a warm-up, default 1")
-      ->check(whole_number_from_to(1, 1000000))
+      ->check(number_from_to(1, 1000000))
       ->type_name("N");
   render->add_option("--stats", options.stats, "Write the figures as JSON")
       ->check(not_empty())

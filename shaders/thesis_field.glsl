@@ -35,14 +35,20 @@ vec3 inward(vec3 pos, vec3 triPos, real height, vec3 D) {
   return height == real(0.0) || size == real(0.0) ? -normalize3(D) : toward * (sign(height) / size);
 }
 
+// Weights of pos in the copy of the base triangle that the shell lifts to pos's height.
+vec3 offset_weights(Triangle tri, vec3 pos, real height) {
+  return Barycentric(pos,
+                     vec3(tri.Position[0]) + vec3(tri.Normal[0]) / tri.NormDot.x * height,
+                     vec3(tri.Position[1]) + vec3(tri.Normal[1]) / tri.NormDot.y * height,
+                     vec3(tri.Position[2]) + vec3(tri.Normal[2]) / tri.NormDot.z * height);
+}
+
 vec4 PhongField(Triangle tri, vec3 pos, real alpha) {
   vec3 P0 = vec3(tri.Position[0]);
   vec3 P1 = vec3(tri.Position[1]);
   vec3 P2 = vec3(tri.Position[2]);
   real height = Height(pos, P0, vec3(tri.TriNormal));
-  vec3 weights = Barycentric(pos, P0 + vec3(tri.Normal[0]) / tri.NormDot.x * height,
-                             P1 + vec3(tri.Normal[1]) / tri.NormDot.y * height,
-                             P2 + vec3(tri.Normal[2]) / tri.NormDot.z * height);
+  vec3 weights = offset_weights(tri, pos, height);
   vec3 triPos = weigh(weights, P0, P1, P2);
   vec3 dir = inward(pos, triPos, height, shell_direction(tri, weights));
   vec3 phPos = weigh(weights, Project(triPos, P0, vec3(tri.Normal[0])),
@@ -68,9 +74,7 @@ vec4 SphereField(Triangle tri, vec3 pos) {
   vec3 P1 = vec3(tri.Position[1]);
   vec3 P2 = vec3(tri.Position[2]);
   real height = Height(pos, P0, vec3(tri.TriNormal));
-  vec3 weights = Barycentric(pos, P0 + vec3(tri.Normal[0]) / tri.NormDot.x * height,
-                             P1 + vec3(tri.Normal[1]) / tri.NormDot.y * height,
-                             P2 + vec3(tri.Normal[2]) / tri.NormDot.z * height);
+  vec3 weights = offset_weights(tri, pos, height);
   vec3 cw = clamp(weights, real(0.0), real(1.0));
   cw /= cw.x + cw.y + cw.z;
   vec3 triPos = weigh(cw, P0, P1, P2);
