@@ -19,7 +19,7 @@ if [ ! -e "$target/lavapipe.json" ]; then
   fi
   echo "deb $source bookworm-backports main" > "$work/sources.list"
   mkdir -p "$work/lists/partial" "$work/cache/archives/partial" "$work/packages"
-  options=(-q -o "Dir::Etc::sourcelist=$work/sources.list" -o Dir::Etc::sourceparts=/nonexistent
+  options=(-q -o Acquire::Retries=3 -o "Dir::Etc::sourcelist=$work/sources.list" -o Dir::Etc::sourceparts=/nonexistent
     -o "Dir::State::lists=$work/lists" -o "Dir::Cache=$work/cache" -o APT::Sandbox::User=root)
   apt-get "${options[@]}" update >/dev/null
   (cd "$work/packages" && apt-get "${options[@]}" download \
