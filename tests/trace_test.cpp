@@ -290,7 +290,8 @@ TEST_F(Trace, AnImageLargerThanABufferComesInBands) {
   const BakedScene scene = bake(mesh, {});
   const TraceSettings settings = test::framed(mesh, scene, 100, 61, 16);
   // Buffers that hold 16 of the 61 rows: four bands, the last of 13.
-  VulkanTracer tracer(test::validated_device(), scene, 100, 61, true, 100 * 20 * sizeof(PixelAovs));
+  VulkanTracer tracer(test::validated_device(), scene, 100, 61, true,
+                      std::size_t{100} * 20 * sizeof(PixelAovs));
   Frame banded;
   tracer.render(make_params(scene, settings), banded);
   const Frame whole = test::trace(scene, settings);
