@@ -63,7 +63,7 @@ Triangle bake_triangle(const std::array<dvec3, 3>& positions, const std::array<d
     tri.VertexData[i] = rounded({curvature(a, N[k]), curvature(b, N[k]),
                                  std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b))});
   }
-  const Ball ball = bound_patch(choice.surface, tri, choice.alpha);
+  const Ball ball = bound_patch(choice, tri);
   const dvec3 center(glm::vec3(ball.center));
   tri.Domain = rounded(center);
   tri.Domain.w = rounded_up(ball.radius + glm::distance(center, ball.center));

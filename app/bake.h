@@ -7,14 +7,9 @@
 
 #include "app/mesh.h"
 #include "app/shared.h"
+#include "app/surface_choice.h"
 
 namespace trisect {
-
-// What a surface is made of.
-struct SurfaceChoice {
-  uint surface = SURFACE_PHONG;
-  double alpha = 0.65;  // phong only
-};
 
 // The mesh as the kernels see it. Positions are relative to `origin`, the centre of the vertices'
 // box, so that a model far from the world's origin keeps its digits in single precision.

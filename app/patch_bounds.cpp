@@ -18,18 +18,19 @@ using glm::dvec3;
 struct Patch {
   std::array<dvec3, 3> P;
   std::array<dvec3, 3> N;
-  std::array<dvec3, 3> D;     // N_i / (N_i.n)
+  std::array<dvec3, 3> D;     // the shell's directions
   std::array<dvec3, 3> data;  // curvatures and angle
   double longest;
 };
 
-Patch patch_of(const Triangle& tri) {
+Patch patch_of(uint shell, const Triangle& tri) {
   Patch patch{};
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
     patch.P[k] = dvec3(tri.Position[i]);
     patch.N[k] = dvec3(tri.Normal[i]);
-    patch.D[k] = patch.N[k] / static_cast<double>(tri.NormDot[i]);
+    patch.D[k] =
+        shell == SHELL_HEIGHT ? patch.N[k] / static_cast<double>(tri.NormDot[i]) : patch.N[k];
     patch.data[k] = dvec3(tri.VertexData[i]);
   }
   patch.longest = static_cast<double>(tri.TriNormal.w);
@@ -38,6 +39,22 @@ Patch patch_of(const Triangle& tri) {
 
 std::vector<Ball> flat_balls(const Patch& patch) {
   return {{patch.P[0], 0.0}, {patch.P[1], 0.0}, {patch.P[2], 0.0}};
+}
+
+// The control points of the cubic Bezier triangle that phong is in the normal shell.
+std::vector<Ball> control_points(const Patch& patch, double alpha) {
+  std::vector<Ball> points = flat_balls(patch);
+  dvec3 middle = (patch.P[0] + patch.P[1] + patch.P[2]) * 2.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const std::size_t k = (i + 2) % 3;
+    const double s = alpha * glm::dot(patch.P[j] - patch.P[i], patch.N[j] - patch.N[i]);
+    points.push_back({(patch.P[i] * 2.0 + patch.P[j] + patch.N[i] * s) / 3.0, 0.0});
+    points.push_back({(patch.P[j] * 2.0 + patch.P[i] + patch.N[j] * s) / 3.0, 0.0});
+    middle += patch.N[k] * s;
+  }
+  points.push_back({middle / 6.0, 0.0});
+  return points;
 }
 
 std::vector<Ball> phong_balls(const Patch& patch, double alpha) {
@@ -182,11 +199,15 @@ Ball bound_sphere_surface(const Patch& patch) {
 
 }  // namespace
 
-Ball bound_patch(uint surface, const Triangle& tri, double alpha) {
-  const Patch patch = patch_of(tri);
-  Ball ball = surface == SURFACE_SPHERE  ? bound_sphere_surface(patch)
-              : surface == SURFACE_PHONG ? enclosing_ball(phong_balls(patch, alpha))
-                                         : enclosing_ball(flat_balls(patch));
+Ball bound_patch(const SurfaceChoice& choice, const Triangle& tri) {
+  const Patch patch = patch_of(choice.shell, tri);
+  const auto points = [&] {
+    if (choice.surface == SURFACE_FLAT) return flat_balls(patch);
+    return choice.shell == SHELL_HEIGHT ? phong_balls(patch, choice.alpha)
+                                        : control_points(patch, choice.alpha);
+  };
+  Ball ball =
+      choice.surface == SURFACE_SPHERE ? bound_sphere_surface(patch) : enclosing_ball(points());
   ball.radius += kBoundSlack * (ball.radius + glm::length(ball.center));
   return ball;
 }

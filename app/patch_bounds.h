@@ -3,6 +3,7 @@
 
 #include "app/enclosing_ball.h"
 #include "app/shared.h"
+#include "app/surface_choice.h"
 
 namespace trisect {
 
@@ -11,8 +12,9 @@ namespace trisect {
 // radius has kBoundSlack added for the kernels' rounding.
 //
 // flat:   the vertices.
-// phong:  alpha K, the offset of Phong Tessellation, is projected on the line along D, so the
-// displacement
+// phong, normal shell: the control points of a cubic Bezier triangle, whose hull contains it.
+// phong, height shell: alpha K, the offset of Phong Tessellation, is projected on the line along D,
+// so the displacement
 //         ends on the sphere with diameter alpha K (Thales), whatever D is: S(w) lies in the ball
 //         about T + alpha K / 2 of radius |alpha K| / 2. K is quadratic, sum_{i<j} w_i w_j V_ij
 //         with V_ij = (E_ij.N_j) N_j - (E_ij.N_i) N_i, so these balls are convex combinations of
@@ -23,7 +25,7 @@ namespace trisect {
 //         arithmetic on the closed form), so S lies in the hull of T_k + lo D_k and T_k + hi D_k.
 //         The triangle is divided until that is tight. Where D is undefined or turns over (a normal
 //         90 degrees or more off the face), the displacement's limit, the longest edge, bounds it.
-Ball bound_patch(uint surface, const Triangle& tri, double alpha);
+Ball bound_patch(const SurfaceChoice& choice, const Triangle& tri);
 
 // Relative to the radius plus the distance from the origin: some ten roundings to single precision,
 // those of the baked numbers and of a point on the surface. How far a kernel's own test of a ray

@@ -19,6 +19,7 @@ using vec4 = glm::dvec4;
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wfloat-equal"
+#include "shaders/shape.glsl"
 namespace {
 #include "shaders/linear.glsl"
 #include "shaders/surface.glsl"

@@ -19,8 +19,8 @@ bool chord_ahead(vec2 bounds) { return !(bounds.y < real(0.0) || bounds.x - boun
 
 // Ray NearPos + t view (|view| = 1) against the displaced triangle, whose ball it cuts in `bounds`.
 // On a hit: its depth t, less than cdepth, and its weights.
-bool bisect(uint surface, Triangle tri, vec2 bounds, vec3 NearPos, vec3 view, int Rank, real resolution,
-            real minDelta, real alpha, real cdepth, OUT(real) depth, OUT(vec3) weights) {
+bool bisect(Shape shape, Triangle tri, vec2 bounds, vec3 NearPos, vec3 view, int Rank, real resolution,
+            real minDelta, real cdepth, OUT(real) depth, OUT(vec3) weights) {
   vec3 near = NearPos + view * (bounds.x - bounds.y);
   vec3 far = NearPos + view * (bounds.x + bounds.y);
   real deltaLength = max(length3(far - near) * resolution, minDelta);
@@ -29,7 +29,7 @@ bool bisect(uint surface, Triangle tri, vec2 bounds, vec3 NearPos, vec3 view, in
   real curScene = real(1000.0);
   weights = vec3(0.0);
   for (int i = 1; i < Rank; i++) {
-    vec4 field = Field(surface, tri, cpos, alpha);
+    vec4 field = Field(shape, tri, cpos);
     curScene = field.w;
     weights = vec3(field);
     vec3 curNorm = vertex_normal(tri, weights);

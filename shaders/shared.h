@@ -61,6 +61,10 @@ const uint SURFACE_FLAT = 0u;
 const uint SURFACE_PHONG = 1u;
 const uint SURFACE_SPHERE = 2u;
 
+// Shells: along which direction. surface.glsl says what they are.
+const uint SHELL_HEIGHT = 0u;
+const uint SHELL_NORMAL = 1u;
+
 // Workgroups are TILE_SIZE x TILE_SIZE pixels.
 #define TILE_SIZE 8
 
@@ -73,3 +77,4 @@ const uint SURFACE_SPHERE = 2u;
 // Specialisation constants.
 #define CONSTANT_SURFACE 0
 #define CONSTANT_AOVS 1
+#define CONSTANT_SHELL 2

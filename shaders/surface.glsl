@@ -1,24 +1,36 @@
-// The surfaces in closed form, in the thesis's shell: a point of the base triangle with weights w is
-// T(w) = sum w_i P_i, its direction D(w) = sum w_i N_i / (N_i.n), and the surface is
-// S(w) = T(w) + sigma(w) D(w). Since D.n = 1, sigma is the height over the base plane.
+// The surfaces in closed form. A point of the base triangle with weights w is T(w) = sum w_i P_i; the shell gives
+// it a direction D(w), the surface a displacement sigma(w) in units of D: S(w) = T(w) + sigma(w) D(w).
 //
+// Shells:
+// height: D = sum w_i N_i / (N_i.n), the thesis's. D.n = 1, so sigma is the height over the base plane. The two
+//         faces of an edge divide by different N_i.n: the curved edges part.
+// normal: D = sum w_i N_i. Along an edge S depends on the edge's own vertices and normals: watertight.
+//
+// Surfaces:
 // flat:   sigma = 0.
-// phong:  the Phong Tessellation of Boubekeur & Alexa 2008 (eq. 1: project T on the three tangent planes,
-//         blend, mix by alpha), projected on the line T + s D.
+// phong:  the Phong Tessellation of Boubekeur & Alexa 2008 (eq. 1: project T on the three tangent planes, blend,
+//         mix by alpha). height: projected on the line T + s D. normal: sigma = sum_{i<j} s_ij w_i w_j with
+//         s_ij = alpha E_ij.(N_j - N_i), the component of Phong Tessellation's edge curve along the edge's two
+//         normals; S is a cubic Bezier triangle.
 // sphere: each vertex has a sphere through it with its normal, blended between the two edges that leave it
 //         (spherical interpolation after Gusiatin et al. 2017, 2018); sigma = sum w_i s_i, where T + s_i D
 //         meets sphere i.
 //
-// S_u and S_v below are derivatives along u = w_1 and v = w_2 with w_0 = 1 - u - v.
+// Derivatives are along u = w_1 and v = w_2 with w_0 = 1 - u - v.
 
 vec3 base_point(Triangle tri, vec3 w) {
   return weigh(w, vec3(tri.Position[0]), vec3(tri.Position[1]), vec3(tri.Position[2]));
 }
 
-// N_i / (N_i.n), for a vertex normal and its entry of NormDot.
-vec3 shell_direction(Triangle tri, vec3 w) {
-  return weigh(w, vec3(tri.Normal[0]) / tri.NormDot.x, vec3(tri.Normal[1]) / tri.NormDot.y,
-               vec3(tri.Normal[2]) / tri.NormDot.z);
+// D at vertex i, from its normal and its entry of NormDot.
+vec3 corner_direction(uint shell, vec4 normal, real cosine) {
+  return shell == SHELL_HEIGHT ? vec3(normal) / cosine : vec3(normal);
+}
+
+vec3 shell_direction(uint shell, Triangle tri, vec3 w) {
+  return weigh(w, corner_direction(shell, tri.Normal[0], tri.NormDot.x),
+               corner_direction(shell, tri.Normal[1], tri.NormDot.y),
+               corner_direction(shell, tri.Normal[2], tri.NormDot.z));
 }
 
 vec3 vertex_normal(Triangle tri, vec3 w) {
@@ -31,6 +43,18 @@ vec3 phong_offset(Triangle tri, vec3 w, vec3 T) {
                 dot3(vec3(tri.Position[1]) - T, vec3(tri.Normal[1])),
                 dot3(vec3(tri.Position[2]) - T, vec3(tri.Normal[2])));
   return weigh(w * k, vec3(tri.Normal[0]), vec3(tri.Normal[1]), vec3(tri.Normal[2]));
+}
+
+// s_ij of phong in the normal shell. Exchanging i and j changes two signs and no rounding.
+real edge_bulge(vec4 Pi, vec4 Pj, vec4 Ni, vec4 Nj, real alpha) {
+  return alpha * dot3(vec3(Pj) - vec3(Pi), vec3(Nj) - vec3(Ni));
+}
+
+// (s_01, s_12, s_02).
+vec3 edge_bulges(Triangle tri, real alpha) {
+  return vec3(edge_bulge(tri.Position[0], tri.Position[1], tri.Normal[0], tri.Normal[1], alpha),
+              edge_bulge(tri.Position[1], tri.Position[2], tri.Normal[1], tri.Normal[2], alpha),
+              edge_bulge(tri.Position[0], tri.Position[2], tri.Normal[0], tri.Normal[2], alpha));
 }
 
 // Where the line x0 + s dir, x0 relative to the vertex, meets the sphere c |x|^2 + 2 x.N = 0 of curvature c
@@ -72,20 +96,26 @@ vec3 sphere_heights(Triangle tri, vec3 T, vec3 D) {
               sphere_height(T, D, P2, vec3(tri.Normal[2]), P1, tri.VertexData[2], longest));
 }
 
-// sigma(w): the displacement in units of D(w).
-real displacement(uint surface, Triangle tri, vec3 w, real alpha) {
-  if (surface == SURFACE_FLAT) return real(0.0);
+// sigma(w).
+real displacement(Shape shape, Triangle tri, vec3 w) {
+  if (shape.surface == SURFACE_FLAT) return real(0.0);
+  if (shape.surface == SURFACE_PHONG && shape.shell == SHELL_NORMAL) {
+    vec3 bulge = edge_bulges(tri, shape.alpha);
+    return bulge.x * w.x * w.y + bulge.y * w.y * w.z + bulge.z * w.x * w.z;
+  }
   vec3 T = base_point(tri, w);
-  vec3 D = shell_direction(tri, w);
-  if (surface == SURFACE_PHONG) return alpha * dot3(D, phong_offset(tri, w, T)) / dot3(D, D);
+  vec3 D = shell_direction(shape.shell, tri, w);
+  if (shape.surface == SURFACE_PHONG) {
+    return shape.alpha * dot3(D, phong_offset(tri, w, T)) / dot3(D, D);
+  }
   return dot3(w, sphere_heights(tri, T, D));
 }
 
-vec3 surface_point(uint surface, Triangle tri, vec3 w, real alpha) {
-  return base_point(tri, w) + shell_direction(tri, w) * displacement(surface, tri, w, alpha);
+vec3 surface_point(Shape shape, Triangle tri, vec3 w) {
+  return base_point(tri, w) + shell_direction(shape.shell, tri, w) * displacement(shape, tri, w);
 }
 
-// Derivative of phong's sigma when w moves by dw (sum 0), T by dT and D by dD.
+// Derivative of phong's sigma in the height shell when w moves by dw (sum 0), T by dT and D by dD.
 real phong_derivative(Triangle tri, vec3 w, vec3 dw, vec3 T, vec3 dT, vec3 D, vec3 dD, real alpha) {
   vec3 N0 = vec3(tri.Normal[0]);
   vec3 N1 = vec3(tri.Normal[1]);
@@ -123,50 +153,66 @@ real sphere_derivative(vec3 T, vec3 dT, vec3 D, vec3 dD, real s, vec3 vertex, ve
   return -(dA * s * s + real(2.0) * dB * s + dC) / (real(2.0) * (A * s + B));
 }
 
-// The geometric normal S_u x S_v, unit length, on the side of the face normal where the shell is not folded.
-vec3 geometric_normal(uint surface, Triangle tri, vec3 w, real alpha) {
-  vec3 n = vec3(tri.TriNormal);
-  if (surface == SURFACE_FLAT) return n;
+Displacement displacement_and_derivatives(Shape shape, Triangle tri, vec3 w) {
+  Displacement sigma;
+  sigma.s = real(0.0);
+  sigma.u = real(0.0);
+  sigma.v = real(0.0);
+  if (shape.surface == SURFACE_FLAT) return sigma;
+  if (shape.surface == SURFACE_PHONG && shape.shell == SHELL_NORMAL) {
+    vec3 bulge = edge_bulges(tri, shape.alpha);
+    sigma.s = bulge.x * w.x * w.y + bulge.y * w.y * w.z + bulge.z * w.x * w.z;
+    sigma.u = bulge.x * (w.x - w.y) + (bulge.y - bulge.z) * w.z;
+    sigma.v = bulge.z * (w.x - w.z) + (bulge.y - bulge.x) * w.y;
+    return sigma;
+  }
   vec3 P0 = vec3(tri.Position[0]);
   vec3 P1 = vec3(tri.Position[1]);
   vec3 P2 = vec3(tri.Position[2]);
-  vec3 D0 = vec3(tri.Normal[0]) / tri.NormDot.x;
+  vec3 D0 = corner_direction(shape.shell, tri.Normal[0], tri.NormDot.x);
+  vec3 Du = corner_direction(shape.shell, tri.Normal[1], tri.NormDot.y) - D0;
+  vec3 Dv = corner_direction(shape.shell, tri.Normal[2], tri.NormDot.z) - D0;
   vec3 T = base_point(tri, w);
   vec3 Tu = P1 - P0;
   vec3 Tv = P2 - P0;
-  vec3 D = shell_direction(tri, w);
-  vec3 Du = vec3(tri.Normal[1]) / tri.NormDot.y - D0;
-  vec3 Dv = vec3(tri.Normal[2]) / tri.NormDot.z - D0;
+  vec3 D = shell_direction(shape.shell, tri, w);
   vec3 du = vec3(-1.0, 1.0, 0.0);
   vec3 dv = vec3(-1.0, 0.0, 1.0);
-  real sigma;
-  real sigma_u;
-  real sigma_v;
-  if (surface == SURFACE_PHONG) {
-    sigma = displacement(surface, tri, w, alpha);
-    sigma_u = phong_derivative(tri, w, du, T, Tu, D, Du, alpha);
-    sigma_v = phong_derivative(tri, w, dv, T, Tv, D, Dv, alpha);
-  } else {
-    vec3 N0 = vec3(tri.Normal[0]);
-    vec3 N1 = vec3(tri.Normal[1]);
-    vec3 N2 = vec3(tri.Normal[2]);
-    vec3 s = sphere_heights(tri, T, D);
-    real longest = tri.TriNormal.w;
-    // The angle at a vertex is measured from neighbour b; seen along n, b follows a at vertices 0 and 2
-    // (so the angle shrinks as the point turns about +n) and precedes it at vertex 1.
-    vec3 su =
-        vec3(sphere_derivative(T, Tu, D, Du, s.x, P0, N0, P2, tri.VertexData[0], longest, -n),
-             sphere_derivative(T, Tu, D, Du, s.y, P1, N1, P2, tri.VertexData[1], longest, n),
-             sphere_derivative(T, Tu, D, Du, s.z, P2, N2, P1, tri.VertexData[2], longest, -n));
-    vec3 sv =
-        vec3(sphere_derivative(T, Tv, D, Dv, s.x, P0, N0, P2, tri.VertexData[0], longest, -n),
-             sphere_derivative(T, Tv, D, Dv, s.y, P1, N1, P2, tri.VertexData[1], longest, n),
-             sphere_derivative(T, Tv, D, Dv, s.z, P2, N2, P1, tri.VertexData[2], longest, -n));
-    sigma = dot3(w, s);
-    sigma_u = dot3(du, s) + dot3(w, su);
-    sigma_v = dot3(dv, s) + dot3(w, sv);
+  if (shape.surface == SURFACE_PHONG) {
+    sigma.s = shape.alpha * dot3(D, phong_offset(tri, w, T)) / dot3(D, D);
+    sigma.u = phong_derivative(tri, w, du, T, Tu, D, Du, shape.alpha);
+    sigma.v = phong_derivative(tri, w, dv, T, Tv, D, Dv, shape.alpha);
+    return sigma;
   }
-  vec3 Su = Tu + D * sigma_u + Du * sigma;
-  vec3 Sv = Tv + D * sigma_v + Dv * sigma;
+  vec3 n = vec3(tri.TriNormal);
+  vec3 N0 = vec3(tri.Normal[0]);
+  vec3 N1 = vec3(tri.Normal[1]);
+  vec3 N2 = vec3(tri.Normal[2]);
+  vec3 s = sphere_heights(tri, T, D);
+  real longest = tri.TriNormal.w;
+  // The angle at a vertex is measured from neighbour b; seen along n, b follows a at vertices 0 and 2
+  // (so the angle shrinks as the point turns about +n) and precedes it at vertex 1.
+  vec3 su = vec3(sphere_derivative(T, Tu, D, Du, s.x, P0, N0, P2, tri.VertexData[0], longest, -n),
+                 sphere_derivative(T, Tu, D, Du, s.y, P1, N1, P2, tri.VertexData[1], longest, n),
+                 sphere_derivative(T, Tu, D, Du, s.z, P2, N2, P1, tri.VertexData[2], longest, -n));
+  vec3 sv = vec3(sphere_derivative(T, Tv, D, Dv, s.x, P0, N0, P2, tri.VertexData[0], longest, -n),
+                 sphere_derivative(T, Tv, D, Dv, s.y, P1, N1, P2, tri.VertexData[1], longest, n),
+                 sphere_derivative(T, Tv, D, Dv, s.z, P2, N2, P1, tri.VertexData[2], longest, -n));
+  sigma.s = dot3(w, s);
+  sigma.u = dot3(du, s) + dot3(w, su);
+  sigma.v = dot3(dv, s) + dot3(w, sv);
+  return sigma;
+}
+
+// The geometric normal S_u x S_v, unit length, on the side of the face normal where the shell is not folded.
+vec3 geometric_normal(Shape shape, Triangle tri, vec3 w) {
+  if (shape.surface == SURFACE_FLAT) return vec3(tri.TriNormal);
+  Displacement sigma = displacement_and_derivatives(shape, tri, w);
+  vec3 D0 = corner_direction(shape.shell, tri.Normal[0], tri.NormDot.x);
+  vec3 Du = corner_direction(shape.shell, tri.Normal[1], tri.NormDot.y) - D0;
+  vec3 Dv = corner_direction(shape.shell, tri.Normal[2], tri.NormDot.z) - D0;
+  vec3 D = shell_direction(shape.shell, tri, w);
+  vec3 Su = vec3(tri.Position[1]) - vec3(tri.Position[0]) + D * sigma.u + Du * sigma.s;
+  vec3 Sv = vec3(tri.Position[2]) - vec3(tri.Position[0]) + D * sigma.v + Dv * sigma.s;
   return normalize3(cross3(Su, Sv));
 }

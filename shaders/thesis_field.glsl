@@ -50,7 +50,7 @@ vec4 PhongField(Triangle tri, vec3 pos, real alpha) {
   real height = Height(pos, P0, vec3(tri.TriNormal));
   vec3 weights = offset_weights(tri, pos, height);
   vec3 triPos = weigh(weights, P0, P1, P2);
-  vec3 dir = inward(pos, triPos, height, shell_direction(tri, weights));
+  vec3 dir = inward(pos, triPos, height, shell_direction(SHELL_HEIGHT, tri, weights));
   vec3 phPos = weigh(weights, Project(triPos, P0, vec3(tri.Normal[0])),
                      Project(triPos, P1, vec3(tri.Normal[1])),
                      Project(triPos, P2, vec3(tri.Normal[2])));
@@ -78,7 +78,7 @@ vec4 SphereField(Triangle tri, vec3 pos) {
   vec3 cw = clamp(weights, real(0.0), real(1.0));
   cw /= cw.x + cw.y + cw.z;
   vec3 triPos = weigh(cw, P0, P1, P2);
-  vec3 dir = inward(pos, triPos, height, shell_direction(tri, cw));
+  vec3 dir = inward(pos, triPos, height, shell_direction(SHELL_HEIGHT, tri, cw));
   vec3 dist = vec3(SphereDist(pos, dir, P0, vec3(tri.Normal[0]),
                               blended_curvature(triPos, P0, P2, tri.VertexData[0])),
                    SphereDist(pos, dir, P1, vec3(tri.Normal[1]),
@@ -88,7 +88,31 @@ vec4 SphereField(Triangle tri, vec3 pos) {
   return vec4(weights, dot3(dist, weights));
 }
 
-vec4 Field(uint surface, Triangle tri, vec3 pos, real alpha) {
-  if (surface == SURFACE_PHONG) return PhongField(tri, pos, alpha);
+// The same question in the normal shell, which the thesis does not have: the copy of the base triangle whose
+// plane holds pos, P_i + s N_i, is found by Newton's method, since s is the root of a cubic.
+vec4 NormalShellField(Shape shape, Triangle tri, vec3 pos) {
+  vec3 P0 = vec3(tri.Position[0]) - pos;
+  vec3 P1 = vec3(tri.Position[1]) - pos;
+  vec3 P2 = vec3(tri.Position[2]) - pos;
+  vec3 N0 = vec3(tri.Normal[0]);
+  vec3 N1 = vec3(tri.Normal[1]);
+  vec3 N2 = vec3(tri.Normal[2]);
+  // The volume of (P_0 + s N_0, P_1 + s N_1, P_2 + s N_2) about pos, a cubic a + b s + c s^2 + d s^3.
+  real a = dot3(P0, cross3(P1, P2));
+  real b = dot3(N0, cross3(P1, P2)) + dot3(P0, cross3(N1, P2)) + dot3(P0, cross3(P1, N2));
+  real c = dot3(P0, cross3(N1, N2)) + dot3(N0, cross3(P1, N2)) + dot3(N0, cross3(N1, P2));
+  real d = dot3(N0, cross3(N1, N2));
+  real s = -a / b;
+  for (int i = 0; i < 4; ++i) {
+    s -= (a + s * (b + s * (c + s * d))) / (b + s * (real(2.0) * c + s * (real(3.0) * d)));
+  }
+  vec3 weights = Barycentric(vec3(0.0), P0 + N0 * s, P1 + N1 * s, P2 + N2 * s);
+  real size = length3(shell_direction(SHELL_NORMAL, tri, weights));
+  return vec4(weights, (s - displacement(shape, tri, weights)) * size);
+}
+
+vec4 Field(Shape shape, Triangle tri, vec3 pos) {
+  if (shape.shell == SHELL_NORMAL) return NormalShellField(shape, tri, pos);
+  if (shape.surface == SURFACE_PHONG) return PhongField(tri, pos, shape.alpha);
   return SphereField(tri, pos);
 }

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "language.h"
 #include "shared.h"
+#include "shape.glsl"
 #include "linear.glsl"
 #include "surface.glsl"
 #include "thesis_field.glsl"
@@ -12,6 +13,7 @@
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 
 layout(constant_id = CONSTANT_SURFACE) const uint SURFACE = SURFACE_PHONG;
+layout(constant_id = CONSTANT_SHELL) const uint SHELL = SHELL_NORMAL;
 layout(constant_id = CONSTANT_AOVS) const bool AOVS = false;
 
 layout(std140, binding = BINDING_PARAMS) uniform ParamsBlock { TraceParams params; };
@@ -47,8 +49,8 @@ void main() {
       vec4 domain = triangles[t].Domain;
       vec2 bounds = rsi(near_pos - domain.xyz, view, domain.w);
       if (!chord_ahead(bounds)) continue;
-      if (!bisect(SURFACE, triangles[t], bounds, near_pos, view, int(params.rank), params.resolution,
-                  params.min_delta, params.alpha, cdepth, depth, weights))
+      if (!bisect(Shape(SURFACE, SHELL, params.alpha), triangles[t], bounds, near_pos, view, int(params.rank), params.resolution,
+                  params.min_delta, cdepth, depth, weights))
         continue;
     }
     cdepth = depth;
@@ -76,7 +78,7 @@ void main() {
     if (hit) {
       aov.normal_z = vec4(normalize3(normal), near_distance + cdepth);
       aov.geometric_u = vec4(
-          geometric_normal(SURFACE, triangles[hit_triangle], hit_weights, params.alpha), hit_weights.y);
+          geometric_normal(Shape(SURFACE, SHELL, params.alpha), triangles[hit_triangle], hit_weights), hit_weights.y);
       aov.v = hit_weights.z;
     }
     aovs[index] = aov;

@@ -25,7 +25,7 @@ class GoldenFrame : public test::GpuTest, public ::testing::WithParamInterface<G
 // As `trisect render --size 48x36 --rank 24` makes it.
 Frame fresh(const Golden& golden) {
   const Mesh mesh = test::load_asset(golden.model);
-  const BakedScene scene = bake(mesh, {golden.surface, 0.65});
+  const BakedScene scene = bake(mesh, {golden.surface, 0.65, SHELL_HEIGHT});
   return test::trace(scene, test::framed(mesh, scene, 48, 36, 24));
 }
 

@@ -41,7 +41,7 @@ TEST(Surface, ThesisFieldsVanishOnTheClosedForms) {
   for (int i = 0; i < 2000; ++i) {
     const in_double::Triangle tri = baked(test::random_patch(random, 60.0));
     for (const dvec3& w : test::weight_grid(6, true)) {
-      const dvec3 p = in_double::surface_point(SURFACE_PHONG, tri, w, 0.65);
+      const dvec3 p = in_double::surface_point({SURFACE_PHONG, SHELL_HEIGHT, 0.65}, tri, w);
       const dvec4 phong = in_double::PhongField(tri, p, 0.65);
       // Slivers among the random triangles magnify the rounding of 1e-16.
       ASSERT_NEAR(phong.w, 0.0, 1e-10) << "patch " << i;
@@ -55,7 +55,7 @@ TEST(Surface, SphereFieldVanishesOnTheClosedForm) {
     for (const Triangle& single : bake(test::load_asset(name), {SURFACE_SPHERE, 0.0}).triangles) {
       const in_double::Triangle tri = exact(single);
       for (const dvec3& w : test::weight_grid(8, true)) {
-        const dvec3 p = in_double::surface_point(SURFACE_SPHERE, tri, w, 0.0);
+        const dvec3 p = in_double::surface_point({SURFACE_SPHERE, SHELL_HEIGHT, 0.0}, tri, w);
         const dvec4 field = in_double::SphereField(tri, p);
         // Near a height of 0 the listing's direction is a difference of almost equal points.
         ASSERT_NEAR(field.w, 0.0, 1e-11) << name;
@@ -70,9 +70,9 @@ TEST(Surface, FieldsAreDistancesAlongTheShell) {
   for (int i = 0; i < 200; ++i) {
     const in_double::Triangle tri = baked(test::random_patch(random, 30.0));
     const dvec3 w(0.3, 0.45, 0.25);
-    const dvec3 D = in_double::shell_direction(tri, w);
-    const dvec3 p =
-        in_double::surface_point(SURFACE_PHONG, tri, w, 0.65) + glm::normalize(D) * 0.125;
+    const dvec3 D = in_double::shell_direction(SHELL_HEIGHT, tri, w);
+    const dvec3 p = in_double::surface_point({SURFACE_PHONG, SHELL_HEIGHT, 0.65}, tri, w) +
+                    glm::normalize(D) * 0.125;
     EXPECT_NEAR(in_double::PhongField(tri, p, 0.65).w, 0.125, 1e-10);
   }
   const in_double::Triangle tri = sphere_patch();
@@ -85,11 +85,87 @@ TEST(Surface, SphereIsExactOnASphere) {
     for (const Triangle& single : bake(test::load_asset(name), {SURFACE_SPHERE, 0.0}).triangles) {
       const in_double::Triangle tri = test::widen(single);
       for (const dvec3& w : test::weight_grid(10)) {
-        const dvec3 p = in_double::surface_point(SURFACE_SPHERE, tri, w, 0.0);
+        const dvec3 p = in_double::surface_point({SURFACE_SPHERE, SHELL_HEIGHT, 0.0}, tri, w);
         // What the rounding of the baked curvatures and normals to single precision leaves.
         ASSERT_NEAR(glm::length(p), 1.0, 4e-7) << name;
-        const dvec3 n = in_double::geometric_normal(SURFACE_SPHERE, tri, w, 0.0);
+        const dvec3 n = in_double::geometric_normal({SURFACE_SPHERE, SHELL_HEIGHT, 0.0}, tri, w);
         ASSERT_LT(glm::distance(n, glm::normalize(p)), 3e-6) << name;
+      }
+    }
+  }
+}
+
+// The control points of the normal shell's Phong Tessellation, from its definition alone.
+TEST(Surface, PhongInTheNormalShellIsACubicBezierTriangle) {
+  std::mt19937_64 random(8);
+  constexpr double alpha = 0.65;
+  for (int i = 0; i < 500; ++i) {
+    const in_double::Triangle tri = baked(test::random_patch(random, 120.0));
+    std::array<dvec3, 3> P{};
+    std::array<dvec3, 3> N{};
+    for (int k = 0; k < 3; ++k) {
+      P[static_cast<std::size_t>(k)] = dvec3(tri.Position[k]);
+      N[static_cast<std::size_t>(k)] = dvec3(tri.Normal[k]);
+    }
+    const auto s = [&](std::size_t a, std::size_t b) {
+      return alpha * glm::dot(P[b] - P[a], N[b] - N[a]);
+    };
+    const auto near = [&](std::size_t a, std::size_t b) {
+      return (P[a] * 2.0 + P[b] + N[a] * s(a, b)) / 3.0;
+    };
+    const dvec3 middle =
+        (P[0] + P[1] + P[2]) / 3.0 + (N[2] * s(0, 1) + N[0] * s(1, 2) + N[1] * s(2, 0)) / 6.0;
+    for (const dvec3& w : test::weight_grid(6)) {
+      const double x = w.x;
+      const double y = w.y;
+      const double z = w.z;
+      const dvec3 expected = P[0] * (x * x * x) + P[1] * (y * y * y) + P[2] * (z * z * z) +
+                             near(0, 1) * (3 * x * x * y) + near(1, 0) * (3 * x * y * y) +
+                             near(1, 2) * (3 * y * y * z) + near(2, 1) * (3 * y * z * z) +
+                             near(2, 0) * (3 * z * z * x) + near(0, 2) * (3 * z * x * x) +
+                             middle * (6 * x * y * z);
+      const dvec3 point = in_double::surface_point({SURFACE_PHONG, SHELL_NORMAL, alpha}, tri, w);
+      ASSERT_LT(glm::distance(point, expected), 1e-14) << "patch " << i;
+    }
+  }
+}
+
+TEST(Surface, NormalShellFieldVanishesOnTheClosedForms) {
+  std::mt19937_64 random(9);
+  for (int i = 0; i < 500; ++i) {
+    const in_double::Triangle tri = baked(test::random_patch(random, 20.0));
+    for (const uint surface : {SURFACE_PHONG, SURFACE_SPHERE}) {
+      const in_double::Shape shape{surface, SHELL_NORMAL, 0.65};
+      for (const dvec3& w : test::weight_grid(6, true)) {
+        const dvec4 field = in_double::Field(shape, tri, in_double::surface_point(shape, tri, w));
+        ASSERT_NEAR(field.w, 0.0, 1e-10) << "patch " << i;
+        ASSERT_LT(glm::distance(dvec3(field), w), 1e-9) << "patch " << i;
+      }
+    }
+  }
+}
+
+// Both faces of an edge draw the same curve in the normal shell, whatever their third vertices are.
+TEST(Surface, NormalShellSharesItsEdges) {
+  std::mt19937_64 random(10);
+  for (int i = 0; i < 500; ++i) {
+    const test::RandomPatch one = test::random_patch(random, 80.0);
+    const test::RandomPatch other = test::random_patch(random, 80.0);
+    for (const uint surface : {SURFACE_PHONG, SURFACE_SPHERE}) {
+      const SurfaceChoice choice{surface, 0.65, SHELL_NORMAL};
+      const in_double::Triangle a = test::widen(bake_triangle(one.positions, one.normals, choice));
+      const in_double::Triangle b =
+          test::widen(bake_triangle({one.positions[1], one.positions[0], other.positions[2]},
+                                    {one.normals[1], one.normals[0], other.normals[2]}, choice));
+      for (const double x : {0.1, 0.25, 0.5, 0.9}) {
+        const dvec3 p = in_double::surface_point(test::shape_of(choice), a, {1.0 - x, x, 0.0});
+        const dvec3 q = in_double::surface_point(test::shape_of(choice), b, {x, 1.0 - x, 0.0});
+        // sphere: the farthest displacement, the longest edge, is the triangle's own affair.
+        const double reach = glm::distance(p, one.positions[0] * (1.0 - x) + one.positions[1] * x);
+        if (surface == SURFACE_SPHERE && reach > 0.5) continue;
+        // The angle between the edges rounds in single precision, so 6e-8 of one edge's curvature
+        // counts on the other; slivers have curvatures of 10 and more.
+        ASSERT_LT(glm::distance(p, q), 1e-6) << "patch " << i;
       }
     }
   }
@@ -108,7 +184,9 @@ TEST(Surface, PhongIsBoubekeurAndAlexasProjectedOnTheShell) {
     blend += (T - n * glm::dot(T - dvec3(tri.Position[i]), n)) / 3.0;
   }
   const dvec3 expected = T + (blend - T) * 0.65;
-  EXPECT_LT(glm::distance(in_double::surface_point(SURFACE_PHONG, tri, w, 0.65), expected), 1e-7);
+  EXPECT_LT(glm::distance(in_double::surface_point({SURFACE_PHONG, SHELL_HEIGHT, 0.65}, tri, w),
+                          expected),
+            1e-7);
 }
 
 TEST(Surface, KeepsTheVertices) {
@@ -118,9 +196,9 @@ TEST(Surface, KeepsTheVertices) {
     dvec3 w(0.0);
     w[i] = 1.0;
     for (const uint surface : {SURFACE_FLAT, SURFACE_PHONG, SURFACE_SPHERE}) {
-      EXPECT_LT(
-          glm::distance(in_double::surface_point(surface, tri, w, 0.65), dvec3(tri.Position[i])),
-          1e-12);
+      EXPECT_LT(glm::distance(in_double::surface_point({surface, SHELL_HEIGHT, 0.65}, tri, w),
+                              dvec3(tri.Position[i])),
+                1e-12);
     }
   }
 }
@@ -131,8 +209,8 @@ TEST(Surface, FlatNormalsGiveTheFlatTriangle) {
   const in_double::Triangle tri = baked(patch);
   for (const dvec3& w : test::weight_grid(5)) {
     for (const uint surface : {SURFACE_PHONG, SURFACE_SPHERE}) {
-      EXPECT_EQ(in_double::displacement(surface, tri, w, 0.65), 0.0);
-      EXPECT_EQ(in_double::geometric_normal(surface, tri, w, 0.65), dvec3(0, 0, 1));
+      EXPECT_EQ(in_double::displacement({surface, SHELL_HEIGHT, 0.65}, tri, w), 0.0);
+      EXPECT_EQ(in_double::geometric_normal({surface, SHELL_HEIGHT, 0.65}, tri, w), dvec3(0, 0, 1));
     }
   }
 }
@@ -142,18 +220,22 @@ TEST(Surface, GeometricNormalIsThatOfDifferences) {
   constexpr double h = 1e-5;  // central differences: h^2 of truncation, 1e-16 / h of rounding
   for (int i = 0; i < 500; ++i) {
     const in_double::Triangle tri = baked(test::random_patch(random, 35.0));
-    for (const uint surface : {SURFACE_PHONG, SURFACE_SPHERE}) {
+    for (const in_double::Shape& shape : {in_double::Shape{SURFACE_PHONG, SHELL_HEIGHT, 0.65},
+                                          in_double::Shape{SURFACE_SPHERE, SHELL_HEIGHT, 0.0},
+                                          in_double::Shape{SURFACE_PHONG, SHELL_NORMAL, 0.65},
+                                          in_double::Shape{SURFACE_SPHERE, SHELL_NORMAL, 0.0}}) {
       for (const dvec3& w : test::weight_grid(5, true)) {
         const auto difference = [&](const dvec3& step) {
-          return in_double::surface_point(surface, tri, w + step * h, 0.65) -
-                 in_double::surface_point(surface, tri, w - step * h, 0.65);
+          return in_double::surface_point(shape, tri, w + step * h) -
+                 in_double::surface_point(shape, tri, w - step * h);
         };
         const dvec3 s_u = difference({-1, 1, 0});
         const dvec3 s_v = difference({-1, 0, 1});
         const dvec3 expected = glm::normalize(glm::cross(s_u, s_v));
-        const dvec3 normal = in_double::geometric_normal(surface, tri, w, 0.65);
+        const dvec3 normal = in_double::geometric_normal(shape, tri, w);
         // Slivers among the random triangles have steep derivatives.
-        ASSERT_LT(glm::distance(normal, expected), 1e-4) << "patch " << i << " surface " << surface;
+        ASSERT_LT(glm::distance(normal, expected), 1e-4)
+            << "patch " << i << " surface " << shape.surface << " shell " << shape.shell;
       }
     }
   }
@@ -197,16 +279,16 @@ TEST(Bisect, ConvergesOnTheSphere) {
   double depth = 0.0;
   dvec3 weights(0.0);
   ASSERT_TRUE(in_double::chord_ahead(bounds));
-  ASSERT_TRUE(in_double::bisect(SURFACE_SPHERE, tri, bounds, origin, -n, 40, std::ldexp(1.0, -40),
-                                1e-6, 0.0, 10.0, depth, weights));
+  ASSERT_TRUE(in_double::bisect({SURFACE_SPHERE, SHELL_HEIGHT, 0.0}, tri, bounds, origin, -n, 40,
+                                std::ldexp(1.0, -40), 1e-6, 10.0, depth, weights));
   EXPECT_NEAR(depth, 2.0, 4e-7);  // what the rounding of the baked numbers leaves
   EXPECT_LT(glm::distance(weights, dvec3(1.0 / 3.0)), 1e-6);
   // Nearer hits have been found already, or the surface is seen from behind: no hit.
-  EXPECT_FALSE(in_double::bisect(SURFACE_SPHERE, tri, bounds, origin, -n, 40, std::ldexp(1.0, -40),
-                                 1e-6, 0.0, 1.9, depth, weights));
+  EXPECT_FALSE(in_double::bisect({SURFACE_SPHERE, SHELL_HEIGHT, 0.0}, tri, bounds, origin, -n, 40,
+                                 std::ldexp(1.0, -40), 1e-6, 1.9, depth, weights));
   const in_double::vec2 behind = in_double::rsi(-n - dvec3(tri.Domain), n, tri.Domain.w);
-  EXPECT_FALSE(in_double::bisect(SURFACE_SPHERE, tri, behind, -n, n, 40, std::ldexp(1.0, -40), 1e-6,
-                                 0.0, 10.0, depth, weights));
+  EXPECT_FALSE(in_double::bisect({SURFACE_SPHERE, SHELL_HEIGHT, 0.0}, tri, behind, -n, n, 40,
+                                 std::ldexp(1.0, -40), 1e-6, 10.0, depth, weights));
 }
 
 TEST(AngleBetween, IsExactNearZero) {

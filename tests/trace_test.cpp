@@ -93,7 +93,7 @@ TEST_F(Trace, CurvedSurfacesWithFlatNormalsAreFlat) {
   const TraceSettings settings = test::framed(mesh, flat, 160, 120, 24);
   const Frame expected = test::trace(flat, settings);
   for (const uint surface : {SURFACE_PHONG, SURFACE_SPHERE}) {
-    const Frame frame = test::trace(bake(mesh, {surface, 0.65}), settings);
+    const Frame frame = test::trace(bake(mesh, {surface, 0.65, SHELL_HEIGHT}), settings);
     const test::FrameDifference d = test::difference(expected, frame);
     ASSERT_TRUE(d.same_size);
     // A pixel whose ray runs along an edge within rounding may fall to either side.
@@ -111,8 +111,9 @@ TEST_F(Trace, AlphaZeroIsFlat) {
   TraceSettings settings = test::framed(mesh, flat, 160, 120, 24);
   // From straight in front, where no vertex normal faces away: the listing steers by those.
   settings.camera.eye = {0, 0, 4};
-  const test::FrameDifference d = test::difference(
-      test::trace(flat, settings), test::trace(bake(mesh, {SURFACE_PHONG, 0.0}), settings));
+  const test::FrameDifference d =
+      test::difference(test::trace(flat, settings),
+                       test::trace(bake(mesh, {SURFACE_PHONG, 0.0, SHELL_HEIGHT}), settings));
   // The outline and the edges between: the listing accepts points up to minDelta, 1e-4, off the
   // surface.
   EXPECT_LE(d.hit_mismatches, 4U);
@@ -124,7 +125,7 @@ TEST_F(Trace, AlphaZeroIsFlat) {
 TEST_F(Trace, SphereSurfaceLiesOnTheUnitSphere) {
   for (const char* name : {"sphere-20", "sphere-80", "sphere-320"}) {
     const Mesh mesh = test::load_asset(name);
-    const BakedScene scene = bake(mesh, {SURFACE_SPHERE, 0.0});
+    const BakedScene scene = bake(mesh, {SURFACE_SPHERE, 0.0, SHELL_HEIGHT});
     for (const uint32_t rank : {10U, 20U}) {
       const TraceSettings settings = test::framed(mesh, scene, 160, 120, rank);
       const TraceParams params = make_params(scene, settings);
@@ -156,7 +157,7 @@ TEST_F(Trace, BisectionDropsPixelsAtRank10AndNoneAtRank20) {
   // The evidence that the port is faithful: rings of holes, a fifth of the sphere's pixels.
   const Mesh mesh = test::load_asset("sphere-20");
   for (const uint surface : {SURFACE_PHONG, SURFACE_SPHERE}) {
-    const BakedScene scene = bake(mesh, {surface, 0.65});
+    const BakedScene scene = bake(mesh, {surface, 0.65, SHELL_HEIGHT});
     const auto hits = [&](uint32_t rank) {
       return static_cast<double>(
           test::trace(scene, test::framed(mesh, scene, 400, 300, rank)).hits());
@@ -208,7 +209,7 @@ TEST_F(Trace, EveryCornerOfTheImageIsWhereItBelongs) {
 
 TEST_F(Trace, MissesHaveTheSkyAndNothingElse) {
   const Mesh mesh = test::load_asset("sphere-20");
-  const BakedScene scene = bake(mesh, {});
+  const BakedScene scene = bake(mesh, {SURFACE_PHONG, 0.65, SHELL_HEIGHT});
   TraceSettings settings = test::framed(mesh, scene, 9, 7, 10);
   settings.camera.target = settings.camera.eye * 2.0;  // away from the model
   const TraceParams params = make_params(scene, settings);
@@ -229,7 +230,7 @@ TEST_F(Trace, MissesHaveTheSkyAndNothingElse) {
 TEST_F(Trace, NormalsAreUnitAndFaceTheEye) {
   const Mesh mesh = test::load_asset("torus");
   for (const uint surface : {SURFACE_FLAT, SURFACE_PHONG, SURFACE_SPHERE}) {
-    const BakedScene scene = bake(mesh, {surface, 0.65});
+    const BakedScene scene = bake(mesh, {surface, 0.65, SHELL_HEIGHT});
     const TraceSettings settings = test::framed(mesh, scene, 80, 60, 20);
     const TraceParams params = make_params(scene, settings);
     const Frame frame = test::trace(scene, settings);
@@ -252,7 +253,7 @@ TEST_F(Trace, NormalsAreUnitAndFaceTheEye) {
 
 TEST_F(Trace, FramesDoNotDependOnTheirTiling) {
   const Mesh mesh = test::load_asset("sphere-80");
-  const BakedScene scene = bake(mesh, {});
+  const BakedScene scene = bake(mesh, {SURFACE_PHONG, 0.65, SHELL_HEIGHT});
   const TraceSettings settings = test::framed(mesh, scene, 203, 117, 12);
   const TraceParams params = make_params(scene, settings);
   VulkanTracer tracer(test::validated_device(), scene, 203, 117, true);
@@ -287,7 +288,7 @@ TEST_F(Trace, PixelsOfAnySizeOfImageAreThoseOfTheWholeImage) {
 
 TEST_F(Trace, AnImageLargerThanABufferComesInBands) {
   const Mesh mesh = test::load_asset("sphere-20");
-  const BakedScene scene = bake(mesh, {});
+  const BakedScene scene = bake(mesh, {SURFACE_PHONG, 0.65, SHELL_HEIGHT});
   const TraceSettings settings = test::framed(mesh, scene, 100, 61, 16);
   // Buffers that hold 16 of the 61 rows: four bands, the last of 13.
   VulkanTracer tracer(test::validated_device(), scene, 100, 61, true,
@@ -304,7 +305,7 @@ TEST_F(Trace, AnImageLargerThanABufferComesInBands) {
 
 TEST_F(Trace, StopsBetweenTwoSubmits) {
   const Mesh mesh = test::load_asset("sphere-20");
-  const BakedScene scene = bake(mesh, {});
+  const BakedScene scene = bake(mesh, {SURFACE_PHONG, 0.65, SHELL_HEIGHT});
   const TraceSettings settings = test::framed(mesh, scene, 400, 300, 10);
   VulkanTracer tracer(test::validated_device(), scene, 400, 300, false);
   Frame frame;
@@ -318,7 +319,7 @@ TEST_F(Trace, StopsBetweenTwoSubmits) {
 
 TEST_F(Trace, ColorDoesNotDependOnAovs) {
   const Mesh mesh = test::load_asset("relief");
-  const BakedScene scene = bake(mesh, {});
+  const BakedScene scene = bake(mesh, {SURFACE_PHONG, 0.65, SHELL_HEIGHT});
   const TraceSettings settings = test::framed(mesh, scene, 100, 75, 16);
   VulkanTracer tracer(test::validated_device(), scene, 100, 75, false);
   Frame color_only;
@@ -329,10 +330,10 @@ TEST_F(Trace, ColorDoesNotDependOnAovs) {
 
 TEST_F(Trace, FarFromTheOriginTheFrameIsTheSame) {
   Mesh mesh = test::load_asset("sphere-20");
-  const BakedScene near = bake(mesh, {SURFACE_SPHERE, 0.0});
+  const BakedScene near = bake(mesh, {SURFACE_SPHERE, 0.0, SHELL_HEIGHT});
   const Frame expected = test::trace(near, test::framed(mesh, near, 160, 120, 24));
   for (dvec3& p : mesh.positions) p += dvec3(1e6, -2e6, 3e6);
-  const BakedScene far = bake(mesh, {SURFACE_SPHERE, 0.0});
+  const BakedScene far = bake(mesh, {SURFACE_SPHERE, 0.0, SHELL_HEIGHT});
   const test::FrameDifference d =
       test::difference(expected, test::trace(far, test::framed(mesh, far, 160, 120, 24)));
   // Rays and vertices differ by a rounding: pixels at an edge may change sides.
@@ -344,14 +345,14 @@ TEST_F(Trace, FarFromTheOriginTheFrameIsTheSame) {
 }
 
 TEST_F(Trace, RefusesAnImageThatNoBufferHolds) {
-  const BakedScene scene = bake(test::load_asset("cube"), {});
+  const BakedScene scene = bake(test::load_asset("cube"), {SURFACE_PHONG, 0.65, SHELL_HEIGHT});
   constexpr std::size_t limit = 1000 * sizeof(PixelAovs);
   EXPECT_NO_THROW(VulkanTracer(test::validated_device(), scene, 125, 8, true, limit));
   EXPECT_THROW(VulkanTracer(test::validated_device(), scene, 126, 8, true, limit), gpu::Error);
 }
 
 TEST_F(Trace, RefusesAModelThatNoBufferHolds) {
-  const BakedScene scene = bake(test::load_asset("cube"), {});
+  const BakedScene scene = bake(test::load_asset("cube"), {SURFACE_PHONG, 0.65, SHELL_HEIGHT});
   try {
     const VulkanTracer tracer(test::validated_device(), scene, 8, 1, false, 11 * sizeof(Triangle));
     FAIL() << "accepted";

@@ -50,6 +50,10 @@ RandomPatch random_patch(std::mt19937_64& random, double spread) {
   return patch;
 }
 
+in_double::Shape shape_of(const SurfaceChoice& choice) {
+  return {choice.surface, choice.shell, choice.alpha};
+}
+
 in_double::Triangle widen(const Triangle& tri) {
   in_double::Triangle wide{};
   for (int i = 0; i < 3; ++i) {

@@ -31,6 +31,8 @@ struct RandomPatch {
 };
 RandomPatch random_patch(std::mt19937_64& random, double spread);
 
+in_double::Shape shape_of(const SurfaceChoice& choice);
+
 // The baked numbers in double precision.
 in_double::Triangle widen(const Triangle& tri);
 

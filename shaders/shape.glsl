@@ -1,0 +1,15 @@
+// The types of the surface mathematics.
+
+// What displaces a triangle; surface.glsl says how.
+struct Shape {
+  uint surface;
+  uint shell;
+  real alpha;  // phong only
+};
+
+// sigma, the displacement in units of the shell's direction, and its derivatives.
+struct Displacement {
+  real s;
+  real u;
+  real v;
+};
