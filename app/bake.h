@@ -17,6 +17,7 @@ struct BakedScene {
   SurfaceChoice choice;
   glm::dvec3 origin{0.0};
   std::vector<Triangle> triangles;  // in the order of the mesh
+  std::vector<Cage> cages;          // of the robust solver; empty if it is not used
   double extent = 0.0;              // half the diagonal of that box
   double radius = 0.0;  // of the ball about `origin` that contains every triangle's Domain
 };

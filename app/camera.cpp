@@ -63,6 +63,12 @@ void set_rays(const Camera& camera, const dvec3& origin, double near, double far
   params.ray_corner = vec4(glm::vec3(corner), 0.0F);
   params.ray_dx = vec4(glm::vec3(dx), 0.0F);
   params.ray_dy = vec4(glm::vec3(dy), 0.0F);
+  // The plane through the scene's origin, parallel to the near plane.
+  const double depth = std::max(glm::dot(-eye, glm::normalize(forward)), near);
+  const double scale = depth / near;
+  params.anchor_corner = vec4(glm::vec3(eye + corner * scale), static_cast<float>(scale));
+  params.anchor_dx = vec4(glm::vec3(dx * scale), 0.0F);
+  params.anchor_dy = vec4(glm::vec3(dy * scale), 0.0F);
 }
 
 }  // namespace trisect

@@ -38,7 +38,7 @@ class Channels {
 
 }  // namespace
 
-void write_exr(const Frame& frame, const AtomicFile& file) {
+void write_exr(const Frame& frame, bool evals, const AtomicFile& file) {
   Imf::Header header(static_cast<int>(frame.width), static_cast<int>(frame.height));
   Channels channels(header, frame.width);
   constexpr std::size_t component = sizeof(float);
@@ -65,6 +65,9 @@ void write_exr(const Frame& frame, const AtomicFile& file) {
     channels.add("U", Imf::FLOAT, frame.aovs, geometric + 3 * component);
     channels.add("V", Imf::FLOAT, frame.aovs, offsetof(PixelAovs, v));
     channels.add("patch", Imf::UINT, frame.aovs, offsetof(PixelAovs, triangle));
+    if (evals) {
+      channels.add("evals", Imf::UINT, frame.aovs, offsetof(PixelAovs, evaluations));
+    }
   }
   try {
     Imf::OutputFile out(file.temporary().c_str(), header);

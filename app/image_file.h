@@ -22,6 +22,6 @@ void write_png(const Frame& frame, const AtomicFile& file);
 // Writes R G B A (linear light, A = 1 where hit) and, if the frame has them, Z, N.X N.Y N.Z, G.X
 // G.Y G.Z, patch, U, V: single precision, patch as unsigned integers. Throws InputError, naming the
 // file.
-void write_exr(const Frame& frame, const AtomicFile& file);
+void write_exr(const Frame& frame, bool evals, const AtomicFile& file);
 
 }  // namespace trisect

@@ -6,18 +6,31 @@ namespace trisect {
 namespace {
 
 // Written at build time: arrays of SPIR-V words.
+#include "cast_rays.spv.h"
 #include "trace_list.spv.h"
 
 }  // namespace
 
 const std::span<const uint32_t> kTraceListSpirv(trace_list_spirv);
 
+const std::span<const uint32_t> kCastRaysSpirv(cast_rays_spirv);
+
 gpu::KernelInterface trace_list_interface() {
   return {{{BINDING_PARAMS, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
            {BINDING_TRIANGLES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {BINDING_COLOR, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-           {BINDING_AOVS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}},
+           {BINDING_AOVS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+           {BINDING_CAGES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}},
           sizeof(TilePush)};
+}
+
+gpu::KernelInterface cast_rays_interface() {
+  return {{{BINDING_PARAMS, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
+           {BINDING_TRIANGLES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+           {BINDING_CAGES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+           {BINDING_RAYS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+           {BINDING_HITS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}},
+          sizeof(CastPush)};
 }
 
 }  // namespace trisect

@@ -10,7 +10,9 @@
 namespace trisect {
 
 extern const std::span<const uint32_t> kTraceListSpirv;
+extern const std::span<const uint32_t> kCastRaysSpirv;
 
 gpu::KernelInterface trace_list_interface();
+gpu::KernelInterface cast_rays_interface();
 
 }  // namespace trisect

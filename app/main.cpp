@@ -29,7 +29,10 @@ int fail(int code, const std::string& message) {
 // Options that CLI11 hands over as text and options.h parses.
 struct RenderText {
   std::string surface;
-  std::string solver;  // there is one
+  std::optional<std::string> backend;
+  std::optional<std::string> preset;
+  std::optional<std::string> shell;
+  std::optional<std::string> solver;
   std::optional<std::string> size;
   std::optional<std::string> eye;
   std::optional<std::string> target;
@@ -87,8 +90,22 @@ void add_render(CLI::App& app, RenderOptions& options, RenderText& text) {
                    "phong: from 0 (flat) to 1 (full projection) and beyond, default 0.65")
       ->check(number_from_to(-1000.0, 1000.0))
       ->type_name("A");
-  render->add_option("--solver", text.solver, "How roots are found: bisect, the default")
-      ->check(one_of({"bisect"}))
+  render
+      ->add_option("--shell", text.shell,
+                   "Along what they are displaced: normal (watertight) or height (the thesis's), "
+                   "default normal")
+      ->check(one_of({"normal", "height"}))
+      ->type_name("NAME");
+  render
+      ->add_option("--solver", text.solver,
+                   "How roots are found: robust (the first one, surely) or bisect (the thesis's), "
+                   "default robust")
+      ->check(one_of({"robust", "bisect"}))
+      ->type_name("NAME");
+  render
+      ->add_option("--preset", text.preset,
+                   "thesis: --shell height --solver bisect --rank 10, but for what is given beside")
+      ->check(one_of({"thesis"}))
       ->type_name("NAME");
   render
       ->add_option("--rank", options.rank,
@@ -111,6 +128,11 @@ void add_render(CLI::App& app, RenderOptions& options, RenderText& text) {
       ->check(number_from_to(0.0, 180.0))
       ->type_name("DEG");
   render
+      ->add_option("--backend", text.backend,
+                   "Who traces: vulkan or cpu (the same kernel as C++), default vulkan")
+      ->check(one_of({"vulkan", "cpu"}))
+      ->type_name("NAME");
+  render
       ->add_option("--device", options.device,
                    "Vulkan device: its number in `trisect devices` or a part of its name")
       ->check(not_empty())
@@ -120,6 +142,9 @@ void add_render(CLI::App& app, RenderOptions& options, RenderText& text) {
   render->add_option("--runs", options.runs, "Frames to time after a warm-up, default 1")
       ->check(number_from_to(1, 1000000))
       ->type_name("N");
+  render->add_flag(
+      "--evals", options.evals,
+      "Count evaluations of the surface: EXR channel evals, evals_total in the figures");
   render->add_option("--stats", options.stats, "Write the figures as JSON")
       ->check(not_empty())
       ->type_name("FILE.json");
@@ -150,6 +175,13 @@ int run(int argc, char** argv) {
   if (app.got_subcommand("devices")) return list_devices();
   if (text.surface == "flat") options.surface = SURFACE_FLAT;
   if (text.surface == "sphere") options.surface = SURFACE_SPHERE;
+  if (text.backend == "cpu") options.backend = Backend::cpu;
+  if (text.preset) {
+    options.shell = SHELL_HEIGHT;
+    options.solver = SOLVER_BISECT;
+  }
+  if (text.shell) options.shell = *text.shell == "height" ? SHELL_HEIGHT : SHELL_NORMAL;
+  if (text.solver) options.solver = *text.solver == "bisect" ? SOLVER_BISECT : SOLVER_ROBUST;
   if (text.size) parse_size("--size", *text.size, options.width, options.height);
   if (text.eye) options.eye = parse_triple("--eye", *text.eye);
   if (text.target) options.target = parse_triple("--target", *text.target);

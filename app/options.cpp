@@ -32,6 +32,18 @@ const char* surface_name(uint surface) {
   return surface == SURFACE_FLAT ? "flat" : surface == SURFACE_PHONG ? "phong" : "sphere";
 }
 
+const char* shell_name(uint shell) {
+  return shell == SHELL_HEIGHT ? "height" : "normal";
+}
+
+const char* solver_name(uint solver) {
+  return solver == SOLVER_BISECT ? "bisect" : "robust";
+}
+
+const char* backend_name(Backend backend) {
+  return backend == Backend::vulkan ? "vulkan" : "cpu";
+}
+
 void parse_size(const std::string& option, const std::string& text, uint32_t& width,
                 uint32_t& height) {
   constexpr uint32_t largest = 16384;

@@ -9,26 +9,37 @@
 
 namespace trisect {
 
+// Who traces.
+enum class Backend { vulkan, cpu };
+
 struct RenderOptions {
   std::string model;
   std::string output;
   uint32_t width = 800;
   uint32_t height = 600;
   uint surface = SURFACE_PHONG;
+  uint shell = SHELL_NORMAL;
   double alpha = 0.65;
+  uint solver = SOLVER_ROBUST;
   uint32_t rank = 10;
+  bool evals = false;
   std::optional<glm::dvec3> eye;
   std::optional<glm::dvec3> target;
   glm::dvec3 up{0.0, 1.0, 0.0};
   double fov = 45.0;
   std::optional<double> crease;
+  Backend backend = Backend::vulkan;
   std::string device;
   bool validation = false;
   uint32_t runs = 1;
   std::string stats;
 };
 
+// The names that the command line and the JSON use.
 const char* surface_name(uint surface);
+const char* shell_name(uint shell);
+const char* solver_name(uint solver);
+const char* backend_name(Backend backend);
 
 // "800x600". Throws UsageError, naming the option, for anything else.
 void parse_size(const std::string& option, const std::string& text, uint32_t& width,

@@ -33,17 +33,22 @@ std::string to_json(const RenderOptions& options, const RenderStatistics& statis
   json["version"] = TRISECT_VERSION;
   json["device"] = statistics.device;
   json["driver"] = statistics.driver;
+  json["backend"] = backend_name(options.backend);
   json["model"] = options.model;
   json["patches"] = statistics.patches;
   json["width"] = options.width;
   json["height"] = options.height;
   json["surface"] = surface_name(options.surface);
-  json["shell"] = "height";
-  json["solver"] = "bisect";
+  json["shell"] = shell_name(options.shell);
+  json["solver"] = solver_name(options.solver);
   json["accel"] = "list";
   json["rank"] = options.rank;
   json["alpha"] = options.alpha;
   json["hits"] = statistics.hits;
+  if (statistics.counts) {
+    json["evals_total"] = statistics.counts->evaluations;
+    json["candidates_total"] = statistics.counts->candidates;
+  }
   json["runs"] = options.runs;
   json["gpu_ms"] = json_of(spread_over(statistics.frames, &FrameTime::gpu_ms));
   json["wall_ms"] = json_of(spread_over(statistics.frames, &FrameTime::wall_ms));
@@ -56,18 +61,23 @@ std::string to_json(const RenderOptions& options, const RenderStatistics& statis
 std::string to_text(const RenderOptions& options, const RenderStatistics& statistics) {
   const Spread gpu = spread_over(statistics.frames, &FrameTime::gpu_ms);
   const Spread wall = spread_over(statistics.frames, &FrameTime::wall_ms);
-  const std::string surface =
-      options.surface == SURFACE_FLAT ? "flat, met without a march"
-      : options.surface == SURFACE_PHONG
-          ? fmt::format("phong (alpha {:g}), bisection at Rank {}", options.alpha, options.rank)
-          : fmt::format("sphere, bisection at Rank {}", options.rank);
+  const std::string alpha =
+      options.surface == SURFACE_PHONG ? fmt::format(" (alpha {:g})", options.alpha) : "";
+  const std::string solver = options.surface == SURFACE_FLAT ? "met without a search"
+                             : options.solver == SOLVER_BISECT
+                                 ? fmt::format("bisect at Rank {}", options.rank)
+                                 : "robust";
+  const std::string counts =
+      statistics.counts ? fmt::format("{} evaluations for {} candidates\n",
+                                      statistics.counts->evaluations, statistics.counts->candidates)
+                        : "";
   return fmt::format(
       "device {}, driver {}\n"
-      "{} patches, surface {}, {}x{}: {} pixels hit\n"
+      "{} patches, surface {}{}, shell {}, solver {}, {}x{}: {} pixels hit\n{}"
       "load {:.1f} ms, bake {:.1f} ms, upload {:.1f} ms, gpu {:.1f} ms, wall {:.1f} ms{}\n",
-      statistics.device, statistics.driver, statistics.patches, surface, options.width,
-      options.height, statistics.hits, statistics.load_ms, statistics.bake_ms, statistics.upload_ms,
-      gpu.median, wall.median,
+      statistics.device, statistics.driver, statistics.patches, surface_name(options.surface),
+      alpha, shell_name(options.shell), solver, options.width, options.height, statistics.hits,
+      counts, statistics.load_ms, statistics.bake_ms, statistics.upload_ms, gpu.median, wall.median,
       options.runs > 1 ? fmt::format(" (medians of {} runs, gpu {:.1f} to {:.1f} ms)", options.runs,
                                      gpu.min, gpu.max)
                        : "");

@@ -1,6 +1,8 @@
 // What a render prints of itself, for people and for programs.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,12 +22,19 @@ struct Spread {
 
 Spread spread_of(std::vector<double> values);
 
+// Work over all pixels.
+struct WorkCounts {
+  uint64_t evaluations = 0;  // of a field (bisect) or of a surface with its derivatives (robust)
+  uint64_t candidates = 0;   // triangles or parts of triangles whose ball a pixel's ray meets
+};
+
 struct RenderStatistics {
   std::string device;
   std::string driver;
   std::size_t patches = 0;
   std::size_t hits = 0;
-  std::vector<FrameTime> frames;  // the counted runs
+  std::optional<WorkCounts> counts;  // if asked for
+  std::vector<FrameTime> frames;     // the counted runs
   double load_ms = 0.0;
   double bake_ms = 0.0;
   double upload_ms = 0.0;

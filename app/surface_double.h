@@ -15,6 +15,7 @@ using vec4 = glm::dvec4;
 
 #define real double
 #define OUT(T) T&
+#define INOUT(T) T&
 // Plain functions in a header: each translation unit has its own, and not all of them are called.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
@@ -30,5 +31,6 @@ namespace {
 #pragma GCC diagnostic pop
 #undef real
 #undef OUT
+#undef INOUT
 
 }  // namespace trisect::in_double

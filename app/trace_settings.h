@@ -14,6 +14,7 @@ struct TraceSettings {
   uint32_t width = 800;
   uint32_t height = 600;
   Camera camera;
+  uint solver = SOLVER_ROBUST;
   uint32_t rank = 10;
   // The listing's minDelta, whose value is lost. With this one the holes close at Rank 16, whatever
   // the chord; like the listing's 1e-3 it is absolute, so it suits models of a size of about 1.

@@ -45,35 +45,53 @@ std::size_t triangle_bytes(const gpu::Device& device, std::size_t limit, const B
   return bytes;
 }
 
+// A binding wants a buffer, also if no solver reads it.
+std::size_t cage_bytes(const gpu::Device& device, std::size_t limit, const BakedScene& scene) {
+  const std::size_t bytes = std::max<std::size_t>(scene.cages.size(), 1) * sizeof(Cage);
+  if (bytes > limit) {
+    throw gpu::Error(
+        fmt::format("device {} has storage buffers of at most {} bytes; the bounds of the model's "
+                    "patches take {}.",
+                    device.report().name, limit, bytes));
+  }
+  return bytes;
+}
+
 }  // namespace
 
 VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, uint32_t width,
-                           uint32_t height, bool aovs, std::size_t buffer_limit)
+                           uint32_t height, const KernelChoice& choice, std::size_t buffer_limit)
     : device_(device),
       width_(width),
       height_(height),
-      aovs_(aovs),
+      aovs_(choice.aovs),
       buffer_limit_(std::min<std::size_t>(buffer_limit, device.limits().maxStorageBufferRange)),
-      band_rows_(rows_in_a_band(device, buffer_limit_, width, height, aovs)),
+      band_rows_(rows_in_a_band(device, buffer_limit_, width, height, choice.aovs)),
       kernel_(device, kTraceListSpirv, trace_list_interface(),
               {{CONSTANT_SURFACE, scene.choice.surface},
                {CONSTANT_SHELL, scene.choice.shell},
-               {CONSTANT_AOVS, aovs ? 1U : 0U}},
+               {CONSTANT_SOLVER, choice.solver},
+               {CONSTANT_AOVS, choice.aovs ? 1U : 0U},
+               {CONSTANT_COUNTS, choice.counts ? 1U : 0U}},
               "trace_list"),
       commands_(device),
       staging_(device, kStagingBytes),
       params_(device, sizeof(TraceParams), gpu::Memory::device, "trace parameters"),
       triangles_(device, triangle_bytes(device, buffer_limit_, scene), gpu::Memory::device,
                  "triangles"),
+      cages_(device, cage_bytes(device, buffer_limit_, scene), gpu::Memory::device, "cages"),
       colors_(device, std::size_t{width} * band_rows_ * sizeof(vec4), gpu::Memory::device,
               "colors"),
       // A binding wants a buffer; without AOVs nothing is written to it.
-      aovs_buffer_(device,
-                   aovs ? std::size_t{width} * band_rows_ * sizeof(PixelAovs) : sizeof(PixelAovs),
-                   gpu::Memory::device, "AOVs"),
-      bound_(device, kernel_, {&params_, &triangles_, &colors_, &aovs_buffer_}) {
+      aovs_buffer_(
+          device,
+          choice.aovs ? std::size_t{width} * band_rows_ * sizeof(PixelAovs) : sizeof(PixelAovs),
+          gpu::Memory::device, "AOVs"),
+      bound_(device, kernel_, {&params_, &triangles_, &colors_, &aovs_buffer_, &cages_}) {
   const auto start = std::chrono::steady_clock::now();
   staging_.upload(commands_, std::as_bytes(std::span(scene.triangles)), triangles_);
+  if (!scene.cages.empty())
+    staging_.upload(commands_, std::as_bytes(std::span(scene.cages)), cages_);
   upload_ms_ = milliseconds_since(start);
 }
 

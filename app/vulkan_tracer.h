@@ -7,6 +7,7 @@
 
 #include "app/bake.h"
 #include "app/frame.h"
+#include "app/kernel_choice.h"
 #include "app/shared.h"
 #include "app/submit_budget.h"
 #include "vk/commands.h"
@@ -21,11 +22,12 @@ struct FrameTime {
 
 class VulkanTracer {
  public:
-  // Uploads the scene and compiles the kernel for its surface. width, height: pixels of the frames.
-  // aovs: whether frames have more than colour. buffer_limit: the most bytes a buffer may have, if
-  // less than the device's own limit. Throws gpu::Error if the device cannot hold the scene.
+  // Uploads the scene and compiles the kernel for it. width, height: pixels of the frames.
+  // buffer_limit: the most bytes a buffer may have, if less than the device's own limit. Throws
+  // gpu::Error if the device cannot hold the scene.
   VulkanTracer(const gpu::Device& device, const BakedScene& scene, uint32_t width, uint32_t height,
-               bool aovs, std::size_t buffer_limit = std::numeric_limits<std::size_t>::max());
+               const KernelChoice& choice,
+               std::size_t buffer_limit = std::numeric_limits<std::size_t>::max());
 
   // Renders into `frame`, in submits of bounded time. params.width and .height must be the
   // tracer's. between_submits, if set, is called between any two; what it throws stops the frame.
@@ -49,6 +51,7 @@ class VulkanTracer {
   gpu::Staging staging_;
   gpu::Buffer params_;
   gpu::Buffer triangles_;
+  gpu::Buffer cages_;
   gpu::Buffer colors_;
   gpu::Buffer aovs_buffer_;
   gpu::BoundBuffers bound_;

@@ -4,3 +4,4 @@
 // names.
 #define real float
 #define OUT(T) out T
+#define INOUT(T) inout T

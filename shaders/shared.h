@@ -16,6 +16,22 @@ struct Triangle {
                        // neighbour; z: interior angle in radians
 };
 
+// A part of a displaced triangle, 80 bytes: what the robust solver knows of it before it looks.
+// With triangle weights w the part is w = node.xyz + node.w l, l the weights within the part; its
+// sigma is about the quadratic q with the Bernstein coefficients corner and edge.
+struct Cage {
+  vec4 ball;  // xyz, w: centre and radius of a ball that contains the part
+  vec4 node;  // xyz: weights of the part's origin; w: its size, 1 for the whole, negative if turned
+              // over
+  vec4 corner;  // xyz: q(e_0, e_0), q(e_1, e_1), q(e_2, e_2); w: how far S strays from T + q D,
+                // length
+  vec4 edge;    // xyz: q(e_0, e_1), q(e_1, e_2), q(e_0, e_2); w: the same of S_u and S_v
+  uint triangle;
+  uint flat_part;  // 1: sigma is 0
+  float bend;  // Lipschitz constant of the gradient of sigma - q in the weights 1 and 2, times |D|
+  uint padding0;
+};
+
 // One frame's constants. Rays leave the eye; near(x, y) = eye + ray_corner + x ray_dx + y ray_dy is
 // the point of the near plane seen through image position (x, y) in pixels, y down, (0, 0) the top
 // left corner.
@@ -24,16 +40,21 @@ struct TraceParams {
   vec4 ray_corner;  // xyz
   vec4 ray_dx;      // xyz
   vec4 ray_dy;      // xyz
-  vec4 light;       // xyz: unit vector toward the light
-  vec4 grid;        // xyz: origin of the shading grid; w: 1 / its cell size
-  uint width;       // image size in pixels
+  // The same rays where they pass the scene's centre (or the near plane, if that is farther):
+  // relative to the scene's origin, so that an eye far away costs no digits.
+  vec4 anchor_corner;  // xyz; w: distance of that plane over that of the near plane
+  vec4 anchor_dx;      // xyz
+  vec4 anchor_dy;      // xyz
+  vec4 light;          // xyz: unit vector toward the light
+  vec4 grid;           // xyz: origin of the shading grid; w: 1 / its cell size
+  uint width;          // image size in pixels
   uint height;
   uint triangle_count;
   uint rank;         // bisection: rank - 1 halvings
   float alpha;       // Phong Tessellation: 0 flat, 1 full projection
   float resolution;  // bisection: 2^-rank, the acceptance tolerance over the chord's length
   float min_delta;   // bisection: smallest acceptance tolerance, world units
-  float padding0;
+  uint cage_count;
 };
 
 // What one submit covers: workgroups first_group, first_group + 1, ... in raster order, of an image
@@ -50,8 +71,32 @@ struct PixelAovs {
   vec4 geometric_u;  // xyz: geometric normal; w: barycentric weight of vertex 1
   float v;           // barycentric weight of vertex 2
   uint triangle;     // index of the triangle, NO_TRIANGLE where missed
+  uint evaluations;  // of a field or a surface, if counted
+  uint candidates;   // parts or triangles whose ball the ray meets, if counted
+};
+
+// A ray of its own, not a pixel's: anchor + z direction, z at least `nearest`.
+struct CastRay {
+  vec4 anchor;     // xyz: a point of it; w: nearest
+  vec4 direction;  // xyz: unit vector
+};
+
+// What a cast ray meets first.
+struct CastHit {
+  float z;
+  float u;  // weights of vertices 1 and 2
+  float v;
+  uint triangle;  // NO_TRIANGLE if nothing; the other members are 0 then
+  uint evaluations;
+  uint candidates;
   uint padding0;
   uint padding1;
+};
+
+// Which rays of a buffer a submit covers.
+struct CastPush {
+  uint first;
+  uint end;
 };
 
 const uint NO_TRIANGLE = 4294967295u;
@@ -65,16 +110,27 @@ const uint SURFACE_SPHERE = 2u;
 const uint SHELL_HEIGHT = 0u;
 const uint SHELL_NORMAL = 1u;
 
+// Solvers: how a root is found.
+const uint SOLVER_BISECT = 0u;
+const uint SOLVER_ROBUST = 1u;
+
 // Workgroups are TILE_SIZE x TILE_SIZE pixels.
 #define TILE_SIZE 8
+// Rays that a workgroup casts.
+#define CAST_SIZE 64
 
 // Descriptor bindings, set 0.
 #define BINDING_PARAMS 0
 #define BINDING_TRIANGLES 1
 #define BINDING_COLOR 2
 #define BINDING_AOVS 3
+#define BINDING_CAGES 4
+#define BINDING_RAYS 5
+#define BINDING_HITS 6
 
 // Specialisation constants.
 #define CONSTANT_SURFACE 0
 #define CONSTANT_AOVS 1
 #define CONSTANT_SHELL 2
+#define CONSTANT_SOLVER 3
+#define CONSTANT_COUNTS 4

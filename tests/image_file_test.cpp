@@ -77,7 +77,7 @@ TEST(WriteExr, KeepsEveryChannel) {
   const test::TemporaryFolder folder;
   const Frame frame = sample(true);
   AtomicFile file(folder / "a.exr");
-  write_exr(frame, file);
+  write_exr(frame, false, file);
   file.commit();
 
   const std::map<std::string, std::string> expected{

@@ -66,6 +66,22 @@ TEST(Layout, TriangleIsTheThesissIn192Bytes) {
                                    {"VertexData", offsetof(Triangle, VertexData)}}));
 }
 
+TEST(Layout, Cage) {
+  const Compiler compiler = reflect();
+  const auto resources = compiler.get_shader_resources();
+  const Held held =
+      held_by(compiler, with_binding(compiler, resources.storage_buffers, BINDING_CAGES));
+  EXPECT_EQ(held.stride, sizeof(Cage));
+  EXPECT_EQ(held.offsets, (Offsets{{"ball", offsetof(Cage, ball)},
+                                   {"node", offsetof(Cage, node)},
+                                   {"corner", offsetof(Cage, corner)},
+                                   {"edge", offsetof(Cage, edge)},
+                                   {"triangle", offsetof(Cage, triangle)},
+                                   {"flat_part", offsetof(Cage, flat_part)},
+                                   {"bend", offsetof(Cage, bend)},
+                                   {"padding0", offsetof(Cage, padding0)}}));
+}
+
 TEST(Layout, TraceParams) {
   const Compiler compiler = reflect();
   const auto resources = compiler.get_shader_resources();
@@ -76,6 +92,9 @@ TEST(Layout, TraceParams) {
                                    {"ray_corner", offsetof(TraceParams, ray_corner)},
                                    {"ray_dx", offsetof(TraceParams, ray_dx)},
                                    {"ray_dy", offsetof(TraceParams, ray_dy)},
+                                   {"anchor_corner", offsetof(TraceParams, anchor_corner)},
+                                   {"anchor_dx", offsetof(TraceParams, anchor_dx)},
+                                   {"anchor_dy", offsetof(TraceParams, anchor_dy)},
                                    {"light", offsetof(TraceParams, light)},
                                    {"grid", offsetof(TraceParams, grid)},
                                    {"width", offsetof(TraceParams, width)},
@@ -85,7 +104,7 @@ TEST(Layout, TraceParams) {
                                    {"alpha", offsetof(TraceParams, alpha)},
                                    {"resolution", offsetof(TraceParams, resolution)},
                                    {"min_delta", offsetof(TraceParams, min_delta)},
-                                   {"padding0", offsetof(TraceParams, padding0)}}));
+                                   {"cage_count", offsetof(TraceParams, cage_count)}}));
 }
 
 TEST(Layout, OutputsAndPushConstants) {
@@ -101,8 +120,8 @@ TEST(Layout, OutputsAndPushConstants) {
                                    {"geometric_u", offsetof(PixelAovs, geometric_u)},
                                    {"v", offsetof(PixelAovs, v)},
                                    {"triangle", offsetof(PixelAovs, triangle)},
-                                   {"padding0", offsetof(PixelAovs, padding0)},
-                                   {"padding1", offsetof(PixelAovs, padding1)}}));
+                                   {"evaluations", offsetof(PixelAovs, evaluations)},
+                                   {"candidates", offsetof(PixelAovs, candidates)}}));
   ASSERT_EQ(resources.push_constant_buffers.size(), 1U);
   const Held push = held_by(compiler, resources.push_constant_buffers[0]);
   EXPECT_EQ(push.stride, sizeof(TilePush));
@@ -135,7 +154,10 @@ TEST(Layout, InterfaceIsTheKernels) {
     constants[constant.constant_id] = compiler.get_name(constant.id);
   }
   EXPECT_EQ(constants, (std::map<uint32_t, std::string>{{CONSTANT_SURFACE, "SURFACE"},
-                                                        {CONSTANT_AOVS, "AOVS"}}));
+                                                        {CONSTANT_AOVS, "AOVS"},
+                                                        {CONSTANT_SHELL, "SHELL"},
+                                                        {CONSTANT_SOLVER, "SOLVER"},
+                                                        {CONSTANT_COUNTS, "COUNTS"}}));
 }
 
 }  // namespace

@@ -256,7 +256,7 @@ TEST_F(Trace, FramesDoNotDependOnTheirTiling) {
   const BakedScene scene = bake(mesh, {SURFACE_PHONG, 0.65, SHELL_HEIGHT});
   const TraceSettings settings = test::framed(mesh, scene, 203, 117, 12);
   const TraceParams params = make_params(scene, settings);
-  VulkanTracer tracer(test::validated_device(), scene, 203, 117, true);
+  VulkanTracer tracer(test::validated_device(), scene, 203, 117, {SOLVER_BISECT, true});
   Frame first;
   Frame second;
   int submits = 0;
@@ -291,7 +291,7 @@ TEST_F(Trace, AnImageLargerThanABufferComesInBands) {
   const BakedScene scene = bake(mesh, {SURFACE_PHONG, 0.65, SHELL_HEIGHT});
   const TraceSettings settings = test::framed(mesh, scene, 100, 61, 16);
   // Buffers that hold 16 of the 61 rows: four bands, the last of 13.
-  VulkanTracer tracer(test::validated_device(), scene, 100, 61, true,
+  VulkanTracer tracer(test::validated_device(), scene, 100, 61, {SOLVER_BISECT, true},
                       std::size_t{100} * 20 * sizeof(PixelAovs));
   Frame banded;
   tracer.render(make_params(scene, settings), banded);
@@ -307,7 +307,7 @@ TEST_F(Trace, StopsBetweenTwoSubmits) {
   const Mesh mesh = test::load_asset("sphere-20");
   const BakedScene scene = bake(mesh, {SURFACE_PHONG, 0.65, SHELL_HEIGHT});
   const TraceSettings settings = test::framed(mesh, scene, 400, 300, 10);
-  VulkanTracer tracer(test::validated_device(), scene, 400, 300, false);
+  VulkanTracer tracer(test::validated_device(), scene, 400, 300, {SOLVER_BISECT, false});
   Frame frame;
   EXPECT_THROW(
       tracer.render(make_params(scene, settings), frame, [] { throw std::runtime_error("stop"); }),
@@ -321,7 +321,7 @@ TEST_F(Trace, ColorDoesNotDependOnAovs) {
   const Mesh mesh = test::load_asset("relief");
   const BakedScene scene = bake(mesh, {SURFACE_PHONG, 0.65, SHELL_HEIGHT});
   const TraceSettings settings = test::framed(mesh, scene, 100, 75, 16);
-  VulkanTracer tracer(test::validated_device(), scene, 100, 75, false);
+  VulkanTracer tracer(test::validated_device(), scene, 100, 75, {SOLVER_BISECT, false});
   Frame color_only;
   tracer.render(make_params(scene, settings), color_only);
   EXPECT_TRUE(color_only.aovs.empty());
@@ -347,14 +347,17 @@ TEST_F(Trace, FarFromTheOriginTheFrameIsTheSame) {
 TEST_F(Trace, RefusesAnImageThatNoBufferHolds) {
   const BakedScene scene = bake(test::load_asset("cube"), {SURFACE_PHONG, 0.65, SHELL_HEIGHT});
   constexpr std::size_t limit = 1000 * sizeof(PixelAovs);
-  EXPECT_NO_THROW(VulkanTracer(test::validated_device(), scene, 125, 8, true, limit));
-  EXPECT_THROW(VulkanTracer(test::validated_device(), scene, 126, 8, true, limit), gpu::Error);
+  EXPECT_NO_THROW(
+      VulkanTracer(test::validated_device(), scene, 125, 8, {SOLVER_BISECT, true}, limit));
+  EXPECT_THROW(VulkanTracer(test::validated_device(), scene, 126, 8, {SOLVER_BISECT, true}, limit),
+               gpu::Error);
 }
 
 TEST_F(Trace, RefusesAModelThatNoBufferHolds) {
   const BakedScene scene = bake(test::load_asset("cube"), {SURFACE_PHONG, 0.65, SHELL_HEIGHT});
   try {
-    const VulkanTracer tracer(test::validated_device(), scene, 8, 1, false, 11 * sizeof(Triangle));
+    const VulkanTracer tracer(test::validated_device(), scene, 8, 1, {SOLVER_BISECT, false},
+                              11 * sizeof(Triangle));
     FAIL() << "accepted";
   } catch (const gpu::Error& error) {
     EXPECT_NE(std::string(error.what()).find("hold 11 triangles; the model has 12"),

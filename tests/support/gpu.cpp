@@ -1,5 +1,6 @@
 #include "tests/support/gpu.h"
 
+#include "app/cage.h"
 #include "app/vulkan_tracer.h"
 
 namespace trisect::test {
@@ -14,9 +15,12 @@ const gpu::Device& validated_device() {
   return device;
 }
 
-Frame trace(const BakedScene& scene, const TraceSettings& settings) {
+Frame trace(const BakedScene& baked, const TraceSettings& settings) {
   Frame frame;
-  VulkanTracer tracer(validated_device(), scene, settings.width, settings.height, true);
+  BakedScene scene = baked;
+  if (settings.solver == SOLVER_ROBUST) scene.cages = bake_cages(scene);
+  VulkanTracer tracer(validated_device(), scene, settings.width, settings.height,
+                      {settings.solver, true, true});
   tracer.render(make_params(scene, settings), frame);
   return frame;
 }
@@ -26,6 +30,7 @@ TraceSettings framed(const Mesh& mesh, const BakedScene& scene, uint32_t width, 
   TraceSettings settings;
   settings.width = width;
   settings.height = height;
+  settings.solver = SOLVER_BISECT;
   settings.rank = rank;
   settings.camera = framing_camera(mesh.positions, scene.origin, 45.0, {0.0, 1.0, 0.0},
                                    static_cast<double>(width) / static_cast<double>(height));

@@ -25,8 +25,8 @@ class GpuTest : public ::testing::Test {
   }
 };
 
-// One frame with AOVs.
-Frame trace(const BakedScene& scene, const TraceSettings& settings);
+// One frame with AOVs and counts.
+Frame trace(const BakedScene& baked, const TraceSettings& settings);
 
 // Settings for a small image of a model seen as `trisect render` sees it by default.
 TraceSettings framed(const Mesh& mesh, const BakedScene& scene, uint32_t width, uint32_t height,

@@ -1,0 +1,257 @@
+#include "app/cage.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "app/enclosing_ball.h"
+#include "app/surface_double.h"
+
+namespace trisect {
+namespace {
+
+using glm::dvec3;
+
+// A cage's quadratic must follow sigma to this part of the longest edge of its part of the
+// triangle, and its tangents S's to this part of it; else the part is divided, at most so many
+// times.
+constexpr double kClose = 0.02;
+constexpr double kTangentsClose = 0.25;
+constexpr int kMostLevels = 4;
+
+// sigma is sampled at the weights with this denominator; between the samples it may stray further
+// by this factor.
+constexpr int kSamples = 12;
+constexpr double kBetweenSamples = 1.5;
+
+// A sub-triangle: w = origin + size l.
+struct Part {
+  dvec3 origin{0.0};
+  double size = 1.0;
+};
+
+// Bernstein coefficients of a quadratic in the weights of the whole triangle.
+struct Quadratic {
+  dvec3 corner{0.0};
+  dvec3 edge{0.0};  // 01, 12, 02
+
+  [[nodiscard]] double blossom(const dvec3& a, const dvec3& b) const {
+    return glm::dot(corner, a * b) + edge.x * (a.x * b.y + a.y * b.x) +
+           edge.y * (a.y * b.z + a.z * b.y) + edge.z * (a.x * b.z + a.z * b.x);
+  }
+};
+
+struct Patch {
+  in_double::Shape shape;
+  in_double::Triangle tri;
+  std::array<dvec3, 3> P;
+  std::array<dvec3, 3> D;
+};
+
+struct Fit {
+  Quadratic q;
+  double stray = 0.0;          // of S, a length
+  double tangent_stray = 0.0;  // of S_u and S_v
+  double bend = 0.0;           // Cage::bend
+};
+
+in_double::Triangle widen(const Triangle& single) {
+  in_double::Triangle tri{};
+  for (int i = 0; i < 3; ++i) {
+    tri.Position[i] = glm::dvec4(single.Position[i]);
+    tri.Normal[i] = glm::dvec4(single.Normal[i]);
+    tri.VertexData[i] = glm::dvec4(single.VertexData[i]);
+  }
+  tri.TriNormal = glm::dvec4(single.TriNormal);
+  tri.NormDot = glm::dvec4(single.NormDot);
+  tri.Domain = glm::dvec4(single.Domain);
+  return tri;
+}
+
+Patch patch_of(const SurfaceChoice& choice, const Triangle& single) {
+  Patch patch{{choice.surface, choice.shell, choice.alpha}, widen(single), {}, {}};
+  for (int i = 0; i < 3; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    patch.P[k] = dvec3(patch.tri.Position[i]);
+    patch.D[k] =
+        in_double::corner_direction(choice.shell, patch.tri.Normal[i], patch.tri.NormDot[i]);
+  }
+  return patch;
+}
+
+dvec3 corner(int k) {
+  dvec3 e(0.0);
+  e[k] = 1.0;
+  return e;
+}
+
+// The quadratic with these values at the part's corners and at the middles of its edges.
+template <typename Value>
+Quadratic through(const Part& part, Value&& value) {
+  const auto at = [&](const dvec3& l) { return value(part.origin + l * part.size); };
+  Quadratic local;
+  for (int k = 0; k < 3; ++k) local.corner[k] = at(corner(k));
+  for (int k = 0; k < 3; ++k) {
+    const int i = k == 2 ? 0 : k;
+    const int j = k == 2 ? 2 : k + 1;
+    local.edge[k] =
+        2.0 * at((corner(i) + corner(j)) * 0.5) - (local.corner[i] + local.corner[j]) * 0.5;
+  }
+  // In the weights of the whole: the blossom does not mind that the corners lie outside the part.
+  const auto inside = [&](int k) { return (corner(k) - part.origin) / part.size; };
+  Quadratic whole;
+  for (int k = 0; k < 3; ++k) whole.corner[k] = local.blossom(inside(k), inside(k));
+  whole.edge = {local.blossom(inside(0), inside(1)), local.blossom(inside(1), inside(2)),
+                local.blossom(inside(0), inside(2))};
+  return whole;
+}
+
+double longest_direction(const Patch& patch) {
+  return std::max({glm::length(patch.D[0]), glm::length(patch.D[1]), glm::length(patch.D[2])});
+}
+
+// sigma - q and its gradient.
+struct Sample {
+  dvec3 w;
+  double e;
+  glm::dvec2 gradient;
+};
+
+Sample sample(const Patch& patch, const Quadratic& q, const dvec3& w) {
+  const in_double::Displacement sigma =
+      in_double::displacement_and_derivatives(patch.shape, patch.tri, w);
+  return {w,
+          sigma.s - q.blossom(w, w),
+          {sigma.u - 2.0 * q.blossom(w, {-1.0, 1.0, 0.0}),
+           sigma.v - 2.0 * q.blossom(w, {-1.0, 0.0, 1.0})}};
+}
+
+Fit fit(const Patch& patch, const Part& part) {
+  Fit fit;
+  fit.q = through(
+      part, [&](const dvec3& w) { return in_double::displacement(patch.shape, patch.tri, w); });
+  const double longest_D = longest_direction(patch);
+  // Rounding of the coefficients to single precision.
+  constexpr double rounding = 2e-7;
+  const dvec3 size = glm::max(glm::abs(fit.q.corner), glm::abs(fit.q.edge));
+  const double rounded = rounding * std::max({size.x, size.y, size.z}) * longest_D;
+  if (patch.shape.surface == SURFACE_PHONG && patch.shape.shell == SHELL_NORMAL) {
+    fit.stray = rounded;
+    fit.tangent_stray = rounded;
+    return fit;
+  }
+  std::vector<Sample> samples;
+  for (int i = 0; i <= kSamples; ++i) {
+    for (int j = 0; i + j <= kSamples; ++j) {
+      const dvec3 l = dvec3(kSamples - i - j, i, j) / static_cast<double>(kSamples);
+      samples.push_back(sample(patch, fit.q, part.origin + l * part.size));
+    }
+  }
+  // Written so that a NaN counts as infinite.
+  const auto raise = [](double& most, double value) {
+    if (!(value <= most)) most = value;
+  };
+  for (const Sample& a : samples) {
+    const dvec3 D = in_double::weigh(a.w, patch.D[0], patch.D[1], patch.D[2]);
+    raise(fit.stray, glm::length(D) * std::abs(a.e));
+    raise(fit.tangent_stray, glm::length(D * a.gradient.x + (patch.D[1] - patch.D[0]) * a.e));
+    raise(fit.tangent_stray, glm::length(D * a.gradient.y + (patch.D[2] - patch.D[0]) * a.e));
+    for (const Sample& b : samples) {
+      const double distance = std::hypot(a.w.y - b.w.y, a.w.z - b.w.z);
+      // Neighbours on the grid; those farther away have been seen in steps.
+      if (distance > 0.0 && distance * kSamples < 1.5 * std::abs(part.size)) {
+        raise(fit.bend, glm::distance(a.gradient, b.gradient) / distance * longest_D);
+      }
+    }
+  }
+  const auto widened = [&](double stray) {
+    return std::isfinite(stray) ? stray * kBetweenSamples + rounded
+                                : static_cast<double>(std::numeric_limits<float>::max());
+  };
+  fit.stray = widened(fit.stray);
+  fit.tangent_stray = widened(fit.tangent_stray);
+  fit.bend = widened(fit.bend);
+  return fit;
+}
+
+float rounded_up(double x) {
+  return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
+}
+
+// The ball around the control points of T + q D over a part, widened by the stray.
+Ball part_ball(const Patch& patch, const Part& part, const Fit& fit) {
+  std::array<dvec3, 3> w{};
+  std::array<dvec3, 3> T{};
+  std::array<dvec3, 3> D{};
+  for (int k = 0; k < 3; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    w[i] = part.origin + corner(k) * part.size;
+    T[i] = in_double::weigh(w[i], patch.P[0], patch.P[1], patch.P[2]);
+    D[i] = in_double::weigh(w[i], patch.D[0], patch.D[1], patch.D[2]);
+  }
+  std::vector<Ball> points;
+  const auto q = [&](std::size_t a, std::size_t b) { return fit.q.blossom(w[a], w[b]); };
+  for (std::size_t a = 0; a < 3; ++a) {
+    points.push_back({T[a] + D[a] * q(a, a), fit.stray});
+    for (std::size_t b = 0; b < 3; ++b) {
+      if (a == b) continue;
+      points.push_back(
+          {(T[a] * 2.0 + T[b] + D[b] * q(a, a) + D[a] * (2.0 * q(a, b))) / 3.0, fit.stray});
+    }
+  }
+  points.push_back(
+      {(T[0] + T[1] + T[2] + D[0] * q(1, 2) + D[1] * q(2, 0) + D[2] * q(0, 1)) / 3.0, fit.stray});
+  Ball ball = enclosing_ball(points);
+  ball.radius += 1e-6 * (ball.radius + glm::length(ball.center));  // rounding to single precision
+  return ball;
+}
+
+Cage cage_of(const Patch& patch, const Part& part, const Fit& fit, uint32_t triangle) {
+  Cage cage{};
+  if (part.size == 1.0) {
+    cage.ball = vec4(patch.tri.Domain);
+  } else {
+    const Ball ball = part_ball(patch, part, fit);
+    cage.ball = vec4(glm::vec3(ball.center), rounded_up(ball.radius));
+  }
+  cage.node = vec4(glm::vec3(part.origin), static_cast<float>(part.size));
+  cage.corner = vec4(glm::vec3(fit.q.corner), rounded_up(fit.stray));
+  cage.edge = vec4(glm::vec3(fit.q.edge), rounded_up(fit.tangent_stray));
+  cage.triangle = triangle;
+  cage.bend = fit.bend > 0.0 ? rounded_up(fit.bend) : 0.0F;
+  const bool no_displacement =
+      fit.q.corner == dvec3(0.0) && fit.q.edge == dvec3(0.0) && fit.stray == 0.0;
+  cage.flat_part = no_displacement ? 1 : 0;
+  return cage;
+}
+
+void cage_part(const Patch& patch, const Part& part, int level, uint32_t triangle,
+               std::vector<Cage>& cages) {
+  const Fit found = fit(patch, part);
+  const double size = patch.tri.TriNormal.w * std::abs(part.size);
+  const bool close =
+      found.stray <= kClose * size && found.tangent_stray <= kTangentsClose * patch.tri.TriNormal.w;
+  if (close || level == kMostLevels) {
+    cages.push_back(cage_of(patch, part, found, triangle));
+    return;
+  }
+  const double half = part.size * 0.5;
+  for (int k = 0; k < 3; ++k) {
+    cage_part(patch, {part.origin + corner(k) * half, half}, level + 1, triangle, cages);
+  }
+  cage_part(patch, {part.origin + dvec3(half), -half}, level + 1, triangle, cages);
+}
+
+}  // namespace
+
+std::vector<Cage> bake_cages(const BakedScene& scene) {
+  std::vector<Cage> cages;
+  cages.reserve(scene.triangles.size());
+  for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+    cage_part(patch_of(scene.choice, scene.triangles[t]), {}, 0, static_cast<uint32_t>(t), cages);
+  }
+  return cages;
+}
+
+}  // namespace trisect

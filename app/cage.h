@@ -1,0 +1,16 @@
+// The cages of a scene's patches: what lets the robust solver prove that a ray misses a patch, or
+// meets it once.
+#pragma once
+
+#include <vector>
+
+#include "app/bake.h"
+#include "app/shared.h"
+
+namespace trisect {
+
+// One cage for a patch whose sigma is close to a quadratic, several for parts of one that is not;
+// in the order of the scene's triangles.
+std::vector<Cage> bake_cages(const BakedScene& scene);
+
+}  // namespace trisect

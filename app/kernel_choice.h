@@ -1,0 +1,14 @@
+// What a kernel does beside what the scene says; what it need not do is not compiled in.
+#pragma once
+
+#include "app/shared.h"
+
+namespace trisect {
+
+struct KernelChoice {
+  uint solver = SOLVER_ROBUST;  // needs the scene's cages
+  bool aovs = false;            // frames have more than colour
+  bool counts = false;          // evaluations and candidates, in the AOVs
+};
+
+}  // namespace trisect

@@ -1,0 +1,45 @@
+// The kernel as C++ in single precision: the shaders' source text, compiled a second time, as the
+// member functions of an object that holds what the kernel finds in its buffers and constants.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "app/shared.h"
+
+namespace trisect::in_float {
+
+using namespace glm;  // NOLINT(google-build-using-namespace): GLSL's own function names
+
+#define real float
+#define OUT(T) T&
+#define INOUT(T) T&
+#include "shaders/shape.glsl"
+#include "shaders/solver_types.glsl"
+
+struct Kernel {
+  const TraceParams& params;
+  const Triangle* triangles;
+  const Cage* cages;
+  uint SURFACE;
+  uint SHELL;
+  uint SOLVER;
+  bool AOVS;
+  bool COUNTS;
+
+#include "shaders/linear.glsl"
+#include "shaders/surface.glsl"
+#include "shaders/thesis_field.glsl"
+// The bisection needs the fields above, the solver the cages, the trace them all.
+#include "shaders/bisect.glsl"
+#include "shaders/cage.glsl"
+// The order is the kernel's.
+#include "shaders/robust.glsl"
+#include "shaders/shading.glsl"
+#include "shaders/trace.glsl"
+};
+
+#undef real
+#undef OUT
+#undef INOUT
+
+}  // namespace trisect::in_float

@@ -1,0 +1,61 @@
+#include "app/parallel_rows.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace trisect {
+
+void parallel_rows(uint32_t height, const std::function<void(uint32_t)>& row,
+                   const std::function<void(uint32_t)>& progress) {
+  std::atomic<uint32_t> next = 0;
+  std::atomic<uint32_t> done = 0;
+  std::mutex mutex;
+  std::condition_variable ended;
+  std::exception_ptr error;
+  unsigned running = std::max(std::thread::hardware_concurrency(), 1U);
+  const auto stop_with = [&](const std::exception_ptr& reason) {
+    const std::scoped_lock lock(mutex);
+    if (!error) error = reason;
+    next = height;
+  };
+  const auto work = [&] {
+    try {
+      for (uint32_t y = next++; y < height; y = next++) {
+        row(y);
+        ++done;
+      }
+    } catch (...) {
+      stop_with(std::current_exception());
+    }
+    const std::scoped_lock lock(mutex);
+    --running;
+    ended.notify_one();
+  };
+  std::vector<std::jthread> threads;
+  threads.reserve(running);
+  for (unsigned i = running; i > 0; --i) threads.emplace_back(work);
+  {
+    std::unique_lock lock(mutex);
+    while (running > 0) {
+      ended.wait_for(lock, std::chrono::milliseconds(200));
+      if (!progress || running == 0) continue;
+      lock.unlock();
+      try {
+        progress(done);
+      } catch (...) {
+        stop_with(std::current_exception());
+      }
+      lock.lock();
+    }
+  }
+  threads.clear();
+  if (error) std::rethrow_exception(error);
+}
+
+}  // namespace trisect

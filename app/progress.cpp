@@ -1,0 +1,35 @@
+#include "app/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include "app/interrupt.h"
+
+namespace trisect {
+
+Progress::Progress(std::string step, uint64_t total) : step_(std::move(step)), total_(total) {}
+
+Progress::~Progress() {
+  if (shown_) std::fputs("\r\033[K", stderr);
+}
+
+void Progress::show(uint64_t done) {
+  stop_if_interrupted();
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  if (seconds < 1.0 || isatty(STDERR_FILENO) == 0) return;
+  const double part =
+      static_cast<double>(done) / static_cast<double>(std::max<uint64_t>(total_, 1));
+  constexpr int width = 30;
+  const auto filled = static_cast<std::size_t>(part * width);
+  const std::string bar = std::string(filled, '#') + std::string(width - filled, '.');
+  std::fputs(fmt::format("\r{} [{}] {:3.0f}%", step_, bar, part * 100.0).c_str(), stderr);
+  std::fflush(stderr);
+  shown_ = true;
+}
+
+}  // namespace trisect

@@ -1,0 +1,67 @@
+#include "app/ray_caster.h"
+
+#include <algorithm>
+
+#include "app/kernels.h"
+#include "app/submit_budget.h"
+
+namespace trisect {
+namespace {
+
+// Rays in device memory at a time, and bytes moved at a time.
+constexpr std::size_t kBatch = std::size_t{1} << 18U;
+constexpr std::size_t kStagingBytes = kBatch * sizeof(CastRay);
+
+template <typename T>
+std::size_t bytes_for(const std::vector<T>& items) {
+  return std::max<std::size_t>(items.size(), 1) * sizeof(T);
+}
+
+}  // namespace
+
+RayCaster::RayCaster(const gpu::Device& device, const BakedScene& scene, const TraceParams& params,
+                     uint solver)
+    : kernel_(device, kCastRaysSpirv, cast_rays_interface(),
+              {{CONSTANT_SURFACE, scene.choice.surface},
+               {CONSTANT_SHELL, scene.choice.shell},
+               {CONSTANT_SOLVER, solver}},
+              "cast_rays"),
+      commands_(device),
+      staging_(device, kStagingBytes),
+      params_(device, sizeof(TraceParams), gpu::Memory::device, "trace parameters"),
+      triangles_(device, bytes_for(scene.triangles), gpu::Memory::device, "triangles"),
+      cages_(device, bytes_for(scene.cages), gpu::Memory::device, "cages"),
+      rays_(device, kBatch * sizeof(CastRay), gpu::Memory::device, "rays"),
+      hits_(device, kBatch * sizeof(CastHit), gpu::Memory::device, "hits"),
+      bound_(device, kernel_, {&params_, &triangles_, &cages_, &rays_, &hits_}) {
+  staging_.upload(commands_, std::as_bytes(std::span(&params, 1)), params_);
+  staging_.upload(commands_, std::as_bytes(std::span(scene.triangles)), triangles_);
+  if (!scene.cages.empty()) {
+    staging_.upload(commands_, std::as_bytes(std::span(scene.cages)), cages_);
+  }
+}
+
+std::vector<CastHit> RayCaster::cast(std::span<const CastRay> rays,
+                                     const std::function<void(std::size_t)>& progress) {
+  std::vector<CastHit> hits(rays.size());
+  SubmitBudget budget;
+  for (std::size_t first = 0; first < rays.size(); first += kBatch) {
+    const std::size_t count = std::min(kBatch, rays.size() - first);
+    staging_.upload(commands_, std::as_bytes(rays.subspan(first, count)), rays_);
+    for (std::size_t done = 0; done < count;) {
+      const auto groups = static_cast<uint32_t>(
+          std::min<std::size_t>(budget.groups(), (count - done + CAST_SIZE - 1) / CAST_SIZE));
+      const CastPush push{static_cast<uint>(done), static_cast<uint>(count)};
+      commands_.begin();
+      commands_.dispatch(kernel_, bound_, std::as_bytes(std::span(&push, 1)), groups);
+      budget.record(groups, commands_.submit_and_wait());
+      done += std::size_t{groups} * CAST_SIZE;
+      if (progress) progress(first + std::min(done, count));
+    }
+    staging_.download(commands_, hits_,
+                      std::as_writable_bytes(std::span(hits).subspan(first, count)));
+  }
+  return hits;
+}
+
+}  // namespace trisect

@@ -1,0 +1,39 @@
+// Rays of any origin and direction through the kernel's solvers, on Vulkan.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "app/bake.h"
+#include "app/shared.h"
+#include "vk/commands.h"
+
+namespace trisect {
+
+class RayCaster {
+ public:
+  // params: rank, resolution, min_delta, alpha and the counts of triangles and cages; its camera is
+  // not used. solver: SOLVER_ROBUST needs the scene's cages. Throws gpu::Error if the device cannot
+  // hold the scene.
+  RayCaster(const gpu::Device& device, const BakedScene& scene, const TraceParams& params,
+            uint solver);
+
+  // One hit for each ray. progress, if set, is told how many rays are done, between submits; what
+  // it throws stops the cast.
+  std::vector<CastHit> cast(std::span<const CastRay> rays,
+                            const std::function<void(std::size_t)>& progress = {});
+
+ private:
+  gpu::Kernel kernel_;
+  gpu::Commands commands_;
+  gpu::Staging staging_;
+  gpu::Buffer params_;
+  gpu::Buffer triangles_;
+  gpu::Buffer cages_;
+  gpu::Buffer rays_;
+  gpu::Buffer hits_;
+  gpu::BoundBuffers bound_;
+};
+
+}  // namespace trisect

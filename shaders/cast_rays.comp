@@ -1,0 +1,30 @@
+#version 450
+// Rays from a buffer, whatever they are aimed at, against every triangle: for tests of the solvers.
+#extension GL_GOOGLE_include_directive : require
+#include "language.h"
+#include "shared.h"
+#include "solvers.glsl"
+
+layout(local_size_x = CAST_SIZE) in;
+
+layout(constant_id = CONSTANT_SURFACE) const uint SURFACE = SURFACE_PHONG;
+layout(constant_id = CONSTANT_SHELL) const uint SHELL = SHELL_NORMAL;
+layout(constant_id = CONSTANT_SOLVER) const uint SOLVER = SOLVER_ROBUST;
+const bool AOVS = false;
+const bool COUNTS = true;
+
+layout(std140, binding = BINDING_PARAMS) uniform ParamsBlock { TraceParams params; };
+layout(std430, binding = BINDING_TRIANGLES) readonly restrict buffer TrianglesBlock {
+  Triangle triangles[];
+};
+layout(std430, binding = BINDING_CAGES) readonly restrict buffer CagesBlock { Cage cages[]; };
+layout(std430, binding = BINDING_RAYS) readonly restrict buffer RaysBlock { CastRay rays[]; };
+layout(std430, binding = BINDING_HITS) writeonly restrict buffer HitsBlock { CastHit hits[]; };
+layout(push_constant) uniform PushBlock { CastPush push; };
+
+#include "trace.glsl"
+
+void main() {
+  uint index = push.first + gl_GlobalInvocationID.x;
+  if (index < push.end) hits[index] = cast_ray(rays[index]);
+}

@@ -1,0 +1,241 @@
+// The first root of a ray in a patch, or the certainty that there is none.
+//
+// The patch is seen in the ray's frame, where a root is a zero of S.xy over the triangle. Nodes, sub-triangles
+// of dyadic size, are taken from a quadtree: one whose cage stays clear of the ray is done; one in which the cage
+// allows one root at most (jacobian) is solved by Newton's method, held within the node; where that ends on the
+// node's border without a root, an interval Newton test must prove that there is none. What is not proven is
+// divided. Silhouettes, where a ray grazes a node, are divided until the cage is no finer than the node; Newton
+// then starts from every corner.
+//
+// After projecting the control points on two planes through the ray the test of the hull is Bezier clipping's
+// (Nishita, Sederberg & Kakimoto 1990); the test of the tangents is Volino & Magnenat-Thalmann's (1994) criterion
+// for a surface that a direction meets once, taken over all pairs of control vectors; interval Newton after Toth
+// (1985), "On ray tracing parametric surfaces".
+
+// What a search of a node found.
+const uint FOUND_ROOT = 0u;
+const uint FOUND_NONE = 1u;
+const uint FOUND_NOTHING = 2u;  // neither a root nor that there is none
+
+// Halvings from a cage to its smallest nodes.
+const int MOST_LEVELS = 9;
+// Nodes that one cage may cost a ray. Only cages that a ray follows along its length come near.
+const int MOST_NODES = 1024;
+const int MOST_STEPS = 10;
+
+// Orthonormal axes with z = view: Duff et al. 2017, "Building an orthonormal basis, revisited".
+RayFrame ray_frame(vec3 anchor, vec3 view) {
+  real turn = view.z < real(0.0) ? real(-1.0) : real(1.0);
+  real a = real(-1.0) / (turn + view.z);
+  real b = view.x * view.y * a;
+  RayFrame frame;
+  frame.anchor = anchor;
+  frame.x = vec3(real(1.0) + turn * view.x * view.x * a, turn * b, -turn * view.x);
+  frame.y = vec3(b, turn + view.y * view.y * a, -view.y);
+  frame.z = view;
+  return frame;
+}
+
+vec3 turned(RayFrame frame, vec3 a) {
+  return vec3(dot3(frame.x, a), dot3(frame.y, a), dot3(frame.z, a));
+}
+
+FramedPatch framed_patch(RayFrame frame, uint shell, Triangle tri) {
+  FramedPatch framed;
+  framed.P0 = turned(frame, vec3(tri.Position[0]) - frame.anchor);
+  framed.P1 = turned(frame, vec3(tri.Position[1]) - frame.anchor);
+  framed.P2 = turned(frame, vec3(tri.Position[2]) - frame.anchor);
+  framed.D0 = turned(frame, corner_direction(shell, tri.Normal[0], tri.NormDot.x));
+  framed.D1 = turned(frame, corner_direction(shell, tri.Normal[1], tri.NormDot.y));
+  framed.D2 = turned(frame, corner_direction(shell, tri.Normal[2], tri.NormDot.z));
+  return framed;
+}
+
+// What a coordinate across the ray may be off by: some roundings of the anchor and of the patch's position. A ray
+// that passes a patch's border by less than this meets it, so that none falls between two patches.
+real grain(RayFrame frame, Triangle tri) {
+  return real(2.4e-7) * max(length3(frame.anchor), length3(vec3(tri.Position[0])));
+}
+
+Contact contact(Shape shape, Triangle tri, FramedPatch framed, vec3 w) {
+  Displacement sigma = displacement_and_derivatives(shape, tri, w);
+  vec3 D = weigh(w, framed.D0, framed.D1, framed.D2);
+  Contact at;
+  at.S = weigh(w, framed.P0, framed.P1, framed.P2) + D * sigma.s;
+  at.u = (framed.P1 - framed.P0) + D * sigma.u + (framed.D1 - framed.D0) * sigma.s;
+  at.v = (framed.P2 - framed.P0) + D * sigma.v + (framed.D2 - framed.D0) * sigma.s;
+  return at;
+}
+
+vec3 weights_in(Node node, vec3 w) { return (w - node.origin) / node.size; }
+
+vec3 weights_of(Node node, vec3 l) { return node.origin + l * node.size; }
+
+real least(vec3 a) { return min(min(a.x, a.y), a.z); }
+
+// The root of the triangle of a node's corners, in weights within it, drawn to the triangle.
+vec3 flat_guess(Net net) {
+  vec2 u = net.b030 - net.b300;
+  vec2 v = net.b003 - net.b300;
+  real det = cross2(u, v);
+  real a = -cross2(net.b300, v) / det;
+  real b = cross2(net.b300, u) / det;
+  vec3 l = max(vec3(real(1.0) - a - b, a, b), vec3(0.0));
+  real sum = l.x + l.y + l.z;
+  return sum > real(0.0) && sum < real(1e6) ? l / sum : vec3(real(1.0) / real(3.0));
+}
+
+// Newton's method from the weights l within a node. If the node is `certified` to hold one root at most,
+// FOUND_NONE is a proof. On a root: its place along the ray, and its weights.
+uint newton(Shape shape, Triangle tri, FramedPatch framed, Node node, Tangents t, Range det, real stray,
+            bool certified, real reach, vec3 l, OUT(real) z, OUT(vec3) weights, INOUT(uint) evaluations) {
+  // Steps this small leave an error of their square.
+  const real small_step = real(1e-4);
+  z = real(0.0);
+  weights = weights_of(node, l);
+  for (int i = 0; i < MOST_STEPS; ++i) {
+    Contact at = contact(shape, tri, framed, weights);
+    ++evaluations;
+    vec2 f = vec2(at.S);
+    vec2 u = vec2(at.u);
+    vec2 v = vec2(at.v);
+    real slope = cross2(u, v);
+    real du = -cross2(f, v) / slope;
+    real dv = cross2(f, u) / slope;
+    vec3 target = weights_in(node, weights + vec3(-du - dv, du, dv));
+    real step = max(abs(du), abs(dv));
+    // A NaN ends here.
+    if (!(step < real(1e6))) return FOUND_NOTHING;
+    if (least(target) >= real(-1e-6)) {
+      weights = weights + vec3(-du - dv, du, dv);
+      z = at.S.z + at.u.z * du + at.v.z * dv;
+      if (step <= small_step * abs(node.size)) return FOUND_ROOT;
+    } else {
+      vec3 inside = max(target, vec3(0.0));
+      vec3 held = weights_of(node, inside / (inside.x + inside.y + inside.z));
+      real hu = held.y - weights.y;
+      real hv = held.z - weights.z;
+      if (certified && excludes(t, det, stray, f, weights_in(node, weights), real(1e-5))) {
+        vec2 missed = f + u * hu + v * hv;
+        if (largest(missed) > real(4.0) * reach) return FOUND_NONE;
+      }
+      if (max(abs(hu), abs(hv)) <= small_step * abs(node.size)) {
+        z = at.S.z + at.u.z * hu + at.v.z * hv;
+        weights = held;
+        return largest(f + u * hu + v * hv) <= reach ? FOUND_ROOT : FOUND_NOTHING;
+      }
+      weights = held;
+    }
+  }
+  return FOUND_NOTHING;
+}
+
+void keep_nearest(real z, vec3 weights, uint triangle, real nearest, INOUT(Hit) hit) {
+  if (z >= nearest && z < hit.z) {
+    hit.z = z;
+    hit.weights = weights;
+    hit.triangle = triangle;
+  }
+}
+
+// A part without displacement: its plane is met once, no node is looked at.
+void meet_flat(FramedPatch framed, Node part, uint triangle, real reach, real nearest, INOUT(Hit) hit) {
+  vec2 P = vec2(framed.P0);
+  vec2 u = vec2(framed.P1) - P;
+  vec2 v = vec2(framed.P2) - P;
+  real det = cross2(u, v);
+  real a = -cross2(P, v) / det;
+  real b = cross2(P, u) / det;
+  vec3 w = vec3(real(1.0) - a - b, a, b);
+  vec3 l = weights_in(part, w);
+  vec3 inside = max(l, vec3(0.0));
+  vec3 held = weights_of(part, inside / (inside.x + inside.y + inside.z));
+  vec2 missed = P + u * held.y + v * held.z;
+  if (least(l) >= real(0.0) || largest(missed) <= reach) {
+    real z = framed.P0.z + (framed.P1.z - framed.P0.z) * held.y + (framed.P2.z - framed.P0.z) * held.z;
+    keep_nearest(z, held, triangle, nearest, hit);
+  }
+}
+
+// The quadratic for a node. That of the cage, but for a linear part that moves it onto the surface at the node's
+// centre, to second order: what it strays from there shrinks with the node.
+Fit cage_fit(Shape shape, Triangle tri, Cage cage, Node node, int level, INOUT(uint) evaluations) {
+  Fit fit;
+  fit.corner = vec3(cage.corner);
+  fit.edge = vec3(cage.edge);
+  fit.stray = cage.corner.w;
+  fit.tangent_stray = cage.edge.w;
+  if (cage.bend == real(0.0) || level == 0) return fit;
+  vec3 c = node.origin + vec3(node.size / real(3.0));
+  Displacement sigma = displacement_and_derivatives(shape, tri, c);
+  ++evaluations;
+  real e = sigma.s - blossom(fit.corner, fit.edge, c, c);
+  real eu = sigma.u - real(2.0) * blossom(fit.corner, fit.edge, c, vec3(-1.0, 1.0, 0.0));
+  real ev = sigma.v - real(2.0) * blossom(fit.corner, fit.edge, c, vec3(-1.0, 0.0, 1.0));
+  // At the patch's vertices.
+  real at0 = e - eu * c.y - ev * c.z;
+  real at1 = at0 + eu;
+  real at2 = at0 + ev;
+  fit.corner += vec3(at0, at1, at2);
+  fit.edge += vec3(at0 + at1, at1 + at2, at0 + at2) * real(0.5);
+  // No point of a node is farther from its centre than sqrt(5) / 3 of its size, in the weights 1 and 2.
+  real away = real(0.7454) * abs(node.size);
+  fit.stray = min(fit.stray, real(0.5) * cage.bend * away * away);
+  fit.tangent_stray = min(fit.tangent_stray, cage.bend * away * (real(1.0) + away));
+  return fit;
+}
+
+// Roots of a ray in one part of a patch; the nearest beyond `nearest` that is before `hit` becomes `hit`.
+void meet_part(Shape shape, Triangle tri, Cage cage, RayFrame frame, real nearest, INOUT(Hit) hit,
+               INOUT(Counts) counts) {
+  FramedPatch framed = framed_patch(frame, shape.shell, tri);
+  real reach = grain(frame, tri);
+  Node node;
+  node.origin = vec3(cage.node);
+  node.size = cage.node.w;
+  if (cage.flat_part == 1u) {
+    meet_flat(framed, node, cage.triangle, reach, nearest, hit);
+    return;
+  }
+  int level = 0;
+  uint path = 0u;
+  for (int visits = 0; visits < MOST_NODES; ++visits) {
+    Fit fit = cage_fit(shape, tri, cage, node, level, counts.evaluations);
+    Net net = cage_net(framed, fit.corner, fit.edge, node);
+    bool divide = false;
+    if (near_ray(net, fit.stray + reach)) {
+      Tangents t = tangents(net);
+      real stray = fit.tangent_stray * abs(node.size) / real(3.0);
+      Range det = jacobian(t, stray);
+      bool certified = det.low > real(0.0) || det.high < real(0.0);
+      bool last = level == MOST_LEVELS;
+      divide = !certified && !last;
+      int starts = divide ? 0 : certified ? 1 : 3;
+      vec3 start = certified ? flat_guess(net) : vec3(1.0, 0.0, 0.0);
+      for (int k = 0; k < starts; ++k) {
+        real z;
+        vec3 weights;
+        uint found = newton(shape, tri, framed, node, t, det, stray, certified, reach, start, z, weights,
+                            counts.evaluations);
+        if (found == FOUND_ROOT) keep_nearest(z, weights, cage.triangle, nearest, hit);
+        divide = certified && found == FOUND_NOTHING && !last;
+        start = vec3(start.z, start.x, start.y);
+      }
+    }
+    if (divide) {
+      node = child(node, 0u);
+      path = path << 2;
+      ++level;
+      continue;
+    }
+    // On to the next sibling, or that of the nearest ancestor that has one.
+    while (level > 0 && (path & 3u) == 3u) {
+      node = parent(node, 3u);
+      path = path >> 2;
+      --level;
+    }
+    if (level == 0) return;
+    node = child(parent(node, path & 3u), (path & 3u) + 1u);
+    ++path;
+  }
+}

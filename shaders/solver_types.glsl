@@ -1,0 +1,88 @@
+// The types of the robust solver.
+
+// A frame with the ray as its third axis: the ray is the line x = y = 0, its anchor the origin.
+struct RayFrame {
+  vec3 anchor;
+  vec3 x;
+  vec3 y;
+  vec3 z;
+};
+
+// A patch in a ray's frame.
+struct FramedPatch {
+  vec3 P0;
+  vec3 P1;
+  vec3 P2;
+  vec3 D0;
+  vec3 D1;
+  vec3 D2;
+};
+
+// A sub-triangle of a patch: w = origin + size l for weights l within it. Halving is exact.
+struct Node {
+  vec3 origin;
+  real size;
+};
+
+// A quadratic near sigma, and how far S and its tangents stray from T + q D.
+struct Fit {
+  vec3 corner;
+  vec3 edge;
+  real stray;
+  real tangent_stray;
+};
+
+// Control points of a cubic Bezier triangle, seen along the ray; b_ijk belongs to w_0^i w_1^j w_2^k.
+struct Net {
+  vec2 b300;
+  vec2 b030;
+  vec2 b003;
+  vec2 b210;
+  vec2 b120;
+  vec2 b021;
+  vec2 b012;
+  vec2 b102;
+  vec2 b201;
+  vec2 b111;
+};
+
+// Control vectors of a net's derivatives, over 3: S_u and S_v of the cage lie in their hulls.
+struct Tangents {
+  vec2 u0;
+  vec2 u1;
+  vec2 u2;
+  vec2 u3;
+  vec2 u4;
+  vec2 u5;
+  vec2 v0;
+  vec2 v1;
+  vec2 v2;
+  vec2 v3;
+  vec2 v4;
+  vec2 v5;
+};
+
+struct Range {
+  real low;
+  real high;
+};
+
+// The surface at one point, in a ray's frame.
+struct Contact {
+  vec3 S;
+  vec3 u;
+  vec3 v;
+};
+
+// The nearest root so far.
+struct Hit {
+  real z;
+  vec3 weights;
+  uint triangle;
+};
+
+// The work done for a ray.
+struct Counts {
+  uint evaluations;
+  uint candidates;
+};

@@ -1,0 +1,10 @@
+// All that a kernel needs before its buffers and constants.
+#include "shape.glsl"
+#include "solver_types.glsl"
+#include "linear.glsl"
+#include "surface.glsl"
+#include "thesis_field.glsl"
+#include "bisect.glsl"
+#include "cage.glsl"
+#include "robust.glsl"
+#include "shading.glsl"

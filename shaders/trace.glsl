@@ -1,0 +1,144 @@
+// One pixel: the rays, the list of all triangles, the outputs. Reads params, triangles and cages; SURFACE, SHELL,
+// SOLVER, AOVS and COUNTS are constants.
+
+// A pixel's ray. Distances along it count from its near point for the bisection, as in the thesis, and from
+// its anchor, a point near the scene's centre, for the robust solver.
+struct PixelRay {
+  vec3 near_point;
+  vec3 view;
+  vec3 anchor;
+  real near_distance;    // from the eye
+  real far_depth;        // from the near point; the robust solver needs no end
+  real anchor_distance;  // from the eye
+};
+
+PixelRay pixel_ray(uvec2 pixel) {
+  real x = real(pixel.x) + real(0.5);
+  real y = real(pixel.y) + real(0.5);
+  vec3 to_near = vec3(params.ray_corner) + vec3(params.ray_dx) * x + vec3(params.ray_dy) * y;
+  PixelRay ray;
+  ray.near_distance = length3(to_near);
+  ray.far_depth = ray.near_distance * (params.eye.w - real(1.0));
+  ray.view = to_near / ray.near_distance;
+  ray.near_point = vec3(params.eye) + to_near;
+  ray.anchor = vec3(params.anchor_corner) + vec3(params.anchor_dx) * x + vec3(params.anchor_dy) * y;
+  ray.anchor_distance = ray.near_distance * params.anchor_corner.w;
+  return ray;
+}
+
+Shape scene_shape() {
+  Shape shape;
+  shape.surface = SURFACE;
+  shape.shell = SHELL;
+  shape.alpha = params.alpha;
+  return shape;
+}
+
+// The thesis's loop. hit.z is the distance from the eye.
+void trace_bisect(PixelRay ray, INOUT(Hit) hit, INOUT(Counts) counts) {
+  real cdepth = ray.far_depth;
+  for (uint t = 0u; t < params.triangle_count; ++t) {
+    real depth;
+    vec3 weights;
+    if (SURFACE == SURFACE_FLAT) {
+      if (!hit_flat(triangles[t], ray.near_point, ray.view, cdepth, depth, weights)) continue;
+    } else {
+      vec4 domain = triangles[t].Domain;
+      vec2 bounds = rsi(ray.near_point - vec3(domain), ray.view, domain.w);
+      if (!chord_ahead(bounds)) continue;
+      if (COUNTS) {
+        ++counts.candidates;
+        counts.evaluations += params.rank - 1u;
+      }
+      if (!bisect(scene_shape(), triangles[t], bounds, ray.near_point, ray.view, int(params.rank),
+                  params.resolution, params.min_delta, cdepth, depth, weights))
+        continue;
+    }
+    cdepth = depth;
+    hit.z = ray.near_distance + depth;
+    hit.weights = weights;
+    hit.triangle = t;
+  }
+}
+
+// Every part of every patch whose ball the ray meets. hit.z is the distance from the eye.
+void trace_robust(PixelRay ray, INOUT(Hit) hit, INOUT(Counts) counts) {
+  RayFrame frame = ray_frame(ray.anchor, ray.view);
+  real nearest = ray.near_distance - ray.anchor_distance;
+  hit.z = real(1e30);
+  for (uint c = 0u; c < params.cage_count; ++c) {
+    vec4 ball = cages[c].ball;
+    vec3 center = vec3(ball) - ray.anchor;
+    real z = dot3(center, ray.view);
+    real size = dot3(center, center);
+    // The distance of the centre from the ray against the radius; the roundings of `size` may add to it.
+    if (size - z * z > ball.w * ball.w + real(5e-7) * size) continue;
+    if (z + ball.w < nearest || z - ball.w > hit.z) continue;
+    if (COUNTS) ++counts.candidates;
+    meet_part(scene_shape(), triangles[cages[c].triangle], cages[c], frame, nearest, hit, counts);
+  }
+  hit.z = ray.anchor_distance + hit.z;
+}
+
+void trace_ray(PixelRay ray, OUT(Hit) hit, OUT(Counts) counts) {
+  hit.z = real(0.0);
+  hit.weights = vec3(0.0);
+  hit.triangle = NO_TRIANGLE;
+  counts.evaluations = 0u;
+  counts.candidates = 0u;
+  if (SOLVER == SOLVER_ROBUST) {
+    trace_robust(ray, hit, counts);
+  } else {
+    trace_bisect(ray, hit, counts);
+  }
+}
+
+CastHit cast_ray(CastRay asked) {
+  PixelRay ray;
+  ray.near_point = vec3(asked.anchor);
+  ray.view = vec3(asked.direction);
+  ray.anchor = vec3(asked.anchor);
+  ray.near_distance = asked.anchor.w;
+  ray.far_depth = real(1e30);
+  ray.anchor_distance = real(0.0);
+  Hit hit;
+  Counts counts;
+  trace_ray(ray, hit, counts);
+  bool met = hit.triangle != NO_TRIANGLE;
+  CastHit result;
+  result.z = met ? hit.z : real(0.0);
+  result.u = hit.weights.y;
+  result.v = hit.weights.z;
+  result.triangle = hit.triangle;
+  result.evaluations = counts.evaluations;
+  result.candidates = counts.candidates;
+  result.padding0 = 0u;
+  result.padding1 = 0u;
+  return result;
+}
+
+void trace_pixel(uvec2 pixel, OUT(vec4) color, OUT(PixelAovs) aovs) {
+  PixelRay ray = pixel_ray(pixel);
+  Hit hit;
+  Counts counts;
+  trace_ray(ray, hit, counts);
+  aovs.normal_z = vec4(0.0);
+  aovs.geometric_u = vec4(0.0);
+  aovs.v = real(0.0);
+  aovs.triangle = hit.triangle;
+  aovs.evaluations = counts.evaluations;
+  aovs.candidates = counts.candidates;
+  color = vec4(sky(ray.view), 0.0);
+  if (hit.triangle == NO_TRIANGLE) return;
+  vec3 normal = vertex_normal(triangles[hit.triangle], hit.weights);
+  vec3 point = ray.anchor + ray.view * (hit.z - ray.anchor_distance);
+  // The thesis sees front faces only; the robust solver sees both, and lights the one it sees.
+  vec3 lit = SOLVER == SOLVER_ROBUST && dot3(normal, ray.view) > real(0.0) ? -normal : normal;
+  color = vec4(shade(lit, point, vec3(params.light), params.grid), 1.0);
+  if (AOVS) {
+    aovs.normal_z = vec4(normalize3(normal), hit.z);
+    aovs.geometric_u =
+        vec4(geometric_normal(scene_shape(), triangles[hit.triangle], hit.weights), hit.weights.y);
+    aovs.v = hit.weights.z;
+  }
+}
