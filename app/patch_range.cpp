@@ -215,8 +215,9 @@ PartCorners corners_of(const Patch& patch, const Part& part) {
 Enclosure enclose(const SurfaceChoice& choice, const Patch& patch, const Part& part) {
   Enclosure e = enclose_surface(choice, patch, part);
   bool finite = std::isfinite(e.sigma.lo) && std::isfinite(e.sigma.hi) && std::isfinite(e.radius);
-  for (std::size_t k = 0; k < e.count; ++k)
+  for (std::size_t k = 0; k < e.count; ++k) {
     finite = finite && std::isfinite(glm::dot(e.points[k], e.points[k]));
+  }
   for (const dvec3& D : e.D) finite = finite && std::isfinite(glm::dot(D, D));
   // An overflow bounds nothing: a comparison with it must not say that the part is elsewhere.
   if (!finite) {
