@@ -255,7 +255,10 @@ std::optional<double> PatchSearch::meet(const Enclosure& enclosure, const Query&
 // longest edge: no division makes such a part small.
 bool PatchSearch::is_torn(const Enclosure& enclosure, int depth) const {
   constexpr double most = 16.0;
-  return enclosure.radius > most * std::ldexp(patch_.longest, -depth);
+  double width = 0.0;
+  for (const dvec3& D : enclosure.D) width = std::max(width, glm::length(D));
+  width *= half_width(enclosure.sigma);
+  return enclosure.radius + width > most * std::ldexp(patch_.longest, -depth);
 }
 
 void PatchSearch::visit(const Node& node, std::size_t index, int depth, const Query& query,
