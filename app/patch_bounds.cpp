@@ -7,35 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include "app/interval.h"
+#include "app/patch_range.h"
+#include "app/sphere_range.h"
 
 namespace trisect {
 namespace {
 
 using glm::dvec3;
-
-// The baked numbers in double precision.
-struct Patch {
-  std::array<dvec3, 3> P;
-  std::array<dvec3, 3> N;
-  std::array<dvec3, 3> D;     // the shell's directions
-  std::array<dvec3, 3> data;  // curvatures and angle
-  double longest;
-};
-
-Patch patch_of(uint shell, const Triangle& tri) {
-  Patch patch{};
-  for (int i = 0; i < 3; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    patch.P[k] = dvec3(tri.Position[i]);
-    patch.N[k] = dvec3(tri.Normal[i]);
-    patch.D[k] =
-        shell == SHELL_HEIGHT ? patch.N[k] / static_cast<double>(tri.NormDot[i]) : patch.N[k];
-    patch.data[k] = dvec3(tri.VertexData[i]);
-  }
-  patch.longest = static_cast<double>(tri.TriNormal.w);
-  return patch;
-}
 
 std::vector<Ball> flat_balls(const Patch& patch) {
   return {{patch.P[0], 0.0}, {patch.P[1], 0.0}, {patch.P[2], 0.0}};
@@ -70,89 +48,10 @@ std::vector<Ball> phong_balls(const Patch& patch, double alpha) {
   return balls;
 }
 
-// A part of the triangle: the weights of its corners.
-using Part = std::array<dvec3, 3>;
-
-dvec3 weigh(const dvec3& w, const std::array<dvec3, 3>& p) {
-  return p[0] * w.x + p[1] * w.y + p[2] * w.z;
-}
-
-// Range of sum_k w_k a_k . b over a part.
-Interval linear_range(const std::array<dvec3, 3>& a, const dvec3& b) {
-  return hull(hull(dot(a[0], b), dot(a[1], b)), dot(a[2], b));
-}
-
-// Range of (sum_k w_k a_k) . (sum_k w_k b_k) over a part: the hull of its Bernstein coefficients.
-Interval product_range(const std::array<dvec3, 3>& a, const std::array<dvec3, 3>& b) {
-  Interval range = dot(a[0], b[0]);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    range = hull(range, dot(a[i], b[i]));
-    range = hull(range, (dot(a[i], b[j]) + dot(a[j], b[i])) * 0.5);
-  }
-  return range;
-}
-
-// Range of the curvature at vertex i, seen from which a convex part spans the angles of its
-// corners.
-Interval curvature_range(const Patch& patch, std::size_t i, const std::array<dvec3, 3>& T) {
-  const dvec3& b = patch.P[i == 2 ? 1 : 2];
-  double lowest = 1.0;
-  double highest = 0.0;
-  for (const dvec3& corner : T) {
-    const dvec3 x = corner - patch.P[i];
-    if (x == dvec3(0.0)) continue;
-    const dvec3 e = b - patch.P[i];
-    const double beta = std::atan2(glm::length(glm::cross(x, e)), glm::dot(x, e)) / patch.data[i].z;
-    lowest = std::min(lowest, beta);
-    highest = std::max(highest, beta);
-  }
-  // The angle is exact to some ten units in the last place of pi.
-  constexpr double rounding = 1e-14;
-  const double slack = rounding / patch.data[i].z;
-  const Interval beta(std::clamp(lowest - slack, 0.0, 1.0), std::clamp(highest + slack, 0.0, 1.0));
-  return patch.data[i].y + beta * (Interval(patch.data[i].x) - patch.data[i].y);
-}
-
-// Range of s_i over a part, in units of D, or nothing where it is not bounded by this means.
-std::optional<Interval> height_range(const Patch& patch, std::size_t i,
-                                     const std::array<dvec3, 3>& T, const std::array<dvec3, 3>& D) {
-  const std::array<dvec3, 3> x{T[0] - patch.P[i], T[1] - patch.P[i], T[2] - patch.P[i]};
-  const Interval c = curvature_range(patch, i, T);
-  const Interval A = c * product_range(D, D);
-  const Interval B = c * product_range(x, D) + linear_range(D, patch.N[i]);
-  const Interval C = c * product_range(x, x) + Interval(2.0) * linear_range(x, patch.N[i]);
-  if (!(B.lo > 0.0)) return std::nullopt;
-  const Interval s = -divide_by_positive(C, B + root(square(B) - A * C));
-  // A root past the limit is drawn back toward 0.
-  const double limit = patch.longest / root(product_range(D, D)).hi * (1.0 - 1e-14);
-  return s.hi > limit || s.lo < -limit ? hull(s, 0.0) : s;
-}
-
-// Range of sigma = sum w_i s_i over a part.
-std::optional<Interval> sigma_range(const Patch& patch, const Part& part,
-                                    const std::array<dvec3, 3>& T, const std::array<dvec3, 3>& D) {
-  Interval sigma(0.0);
-  for (int i = 0; i < 3; ++i) {
-    const auto s = height_range(patch, static_cast<std::size_t>(i), T, D);
-    if (!s) return std::nullopt;
-    const auto [lo, hi] = std::minmax({part[0][i], part[1][i], part[2][i]});
-    sigma = sigma + Interval(lo, hi) * *s;
-  }
-  return sigma;
-}
-
-std::array<Part, 4> quarter(const Part& part) {
-  const dvec3 a = (part[1] + part[2]) * 0.5;
-  const dvec3 b = (part[2] + part[0]) * 0.5;
-  const dvec3 c = (part[0] + part[1]) * 0.5;
-  return {Part{part[0], c, b}, Part{c, part[1], a}, Part{b, a, part[2]}, Part{a, b, c}};
-}
-
 // Points whose hull contains the sphere surface over 4^level parts of the triangle; none where a
 // part has no bound.
 std::vector<Ball> sphere_points(const Patch& patch, int level) {
-  std::vector<Part> parts{{dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(0, 0, 1)}};
+  std::vector<Part> parts{kWholeTriangle};
   for (int k = 0; k < level; ++k) {
     std::vector<Part> finer;
     for (const Part& part : parts) {
@@ -162,17 +61,12 @@ std::vector<Ball> sphere_points(const Patch& patch, int level) {
   }
   std::vector<Ball> points;
   for (const Part& part : parts) {
-    std::array<dvec3, 3> T{};
-    std::array<dvec3, 3> D{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      T[k] = weigh(part[k], patch.P);
-      D[k] = weigh(part[k], patch.D);
-    }
-    const std::optional<Interval> sigma = sigma_range(patch, part, T, D);
+    const PartCorners corners = corners_of(patch, part);
+    const std::optional<Interval> sigma = sphere_sigma_range(patch, part, corners);
     if (!sigma) return {};
     for (std::size_t k = 0; k < 3; ++k) {
-      points.push_back({T[k] + D[k] * sigma->lo, 0.0});
-      points.push_back({T[k] + D[k] * sigma->hi, 0.0});
+      points.push_back({corners.T[k] + corners.D[k] * sigma->lo, 0.0});
+      points.push_back({corners.T[k] + corners.D[k] * sigma->hi, 0.0});
     }
   }
   return points;

@@ -1,0 +1,254 @@
+#include "app/patch_range.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "app/sphere_range.h"
+
+namespace trisect {
+namespace {
+
+using glm::dvec3;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Relative. Every figure below comes of fewer than a hundred roundings of numbers no larger than
+// the magnitude that this is multiplied with; a rounding is 1.1e-16.
+constexpr double kRounding = 1e-13;
+
+// Bernstein coefficients over a part, of a quadratic: at the corners, then at the edges 01 12 20.
+template <typename Value>
+using Quadratic = std::array<Value, 6>;
+
+constexpr std::size_t kEdgeOfCorners[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+
+// sum_{i<j} w_i w_j q_ij, q in the order 01 12 20, over a part: its blossom at pairs of corners.
+template <typename Value>
+Quadratic<Value> quadratic_over(const Part& part, const std::array<Value, 3>& q) {
+  const auto blossom = [&](const dvec3& a, const dvec3& b) {
+    return (q[0] * (a.x * b.y + a.y * b.x) + q[1] * (a.y * b.z + a.z * b.y) +
+            q[2] * (a.x * b.z + a.z * b.x)) *
+           0.5;
+  };
+  return {blossom(part[0], part[0]), blossom(part[1], part[1]), blossom(part[2], part[2]),
+          blossom(part[0], part[1]), blossom(part[1], part[2]), blossom(part[2], part[0])};
+}
+
+// The ten Bernstein coefficients of a quadratic times a linear function.
+template <typename Value, typename Linear, typename Product>
+auto cubic_of(const Quadratic<Value>& q, const std::array<Linear, 3>& l, const Product& times) {
+  using Result = decltype(times(q[0], l[0]));
+  std::array<Result, 10> coefficients{};
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    coefficients[next++] = times(q[i], l[i]);
+    for (const std::size_t j : {(i + 1) % 3, (i + 2) % 3}) {
+      coefficients[next++] =
+          (times(q[i], l[j]) + times(q[kEdgeOfCorners[i][j]], l[i]) * 2.0) * (1.0 / 3.0);
+    }
+  }
+  coefficients[next] = (times(q[3], l[2]) + times(q[4], l[0]) + times(q[5], l[1])) * (1.0 / 3.0);
+  return coefficients;
+}
+
+double longest_of(const std::array<dvec3, 3>& vectors) {
+  return std::max({glm::length(vectors[0]), glm::length(vectors[1]), glm::length(vectors[2])});
+}
+
+// The flat part with a ball of `radius` about each of its points.
+Enclosure around_base(const PartCorners& corners, double radius) {
+  Enclosure e{};
+  std::copy(corners.T.begin(), corners.T.end(), e.points.begin());
+  e.count = 3;
+  e.radius = radius + kRounding * longest_of(corners.T);
+  return e;
+}
+
+Enclosure enclose_cubic(const Patch& patch, const Part& part, const PartCorners& corners,
+                        double alpha) {
+  std::array<double, 3> bulge{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    bulge[i] = alpha * glm::dot(patch.P[j] - patch.P[i], patch.N[j] - patch.N[i]);
+  }
+  const auto& T = corners.T;
+  Enclosure e{};
+  e.count = 10;
+  e.points = cubic_of(quadratic_over(part, bulge), corners.D,
+                      [](double s, const dvec3& D) { return D * s; });
+  const auto ones = Quadratic<double>{1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+  const auto base = cubic_of(ones, T, [](double s, const dvec3& t) { return t * s; });
+  for (std::size_t k = 0; k < 10; ++k) e.points[k] += base[k];
+  // A bulge is a difference of products as long as an edge.
+  e.radius = kRounding * (longest_of(T) + (1.0 + std::abs(alpha)) * patch.longest * 4.0);
+  return e;
+}
+
+// K of phong, quadratic: sum_{i<j} w_i w_j V_ij, V_ij = (E_ij.N_j) N_j - (E_ij.N_i) N_i.
+Quadratic<dvec3> phong_offset_over(const Patch& patch, const Part& part) {
+  std::array<dvec3, 3> V{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const dvec3 edge = patch.P[j] - patch.P[i];
+    V[i] = patch.N[j] * glm::dot(edge, patch.N[j]) - patch.N[i] * glm::dot(edge, patch.N[i]);
+  }
+  return quadratic_over(part, V);
+}
+
+// A number that |D|^2 does not fall below over a part. `lengths`: its Bernstein coefficients.
+double least_length_squared(const PartCorners& corners, const Patch& patch,
+                            const Quadratic<double>& lengths) {
+  const dvec3 n = glm::normalize(glm::cross(patch.P[1] - patch.P[0], patch.P[2] - patch.P[0]));
+  const auto& D = corners.D;
+  // D.n is linear.
+  const double height =
+      std::max(0.0, std::min({glm::dot(D[0], n), glm::dot(D[1], n), glm::dot(D[2], n)}));
+  const double least = *std::min_element(lengths.begin(), lengths.end());
+  const double largest = *std::max_element(lengths.begin(), lengths.end());
+  return std::max(least - kRounding * largest, height * height * (1.0 - 1e-6));
+}
+
+Enclosure enclose_quotient(const Patch& patch, const Part& part, const PartCorners& corners,
+                           double alpha) {
+  const auto& [T, D] = corners;
+  const Quadratic<dvec3> K = phong_offset_over(patch, part);
+  double farthest = 0.0;
+  for (const dvec3& k : K) farthest = std::max(farthest, std::abs(alpha) * glm::length(k));
+  const Enclosure wide =
+      around_base(corners, farthest + kRounding * std::abs(alpha) * patch.longest * 4.0);
+  const Quadratic<double> lengths{glm::dot(D[0], D[0]), glm::dot(D[1], D[1]), glm::dot(D[2], D[2]),
+                                  glm::dot(D[0], D[1]), glm::dot(D[1], D[2]), glm::dot(D[2], D[0])};
+  const double least = least_length_squared(corners, patch, lengths);
+  if (!(least > 0.0)) return wide;
+
+  std::array<double, 3> L{};
+  for (std::size_t k = 0; k < 3; ++k) L[k] = alpha * glm::dot(D[k], K[k]) / lengths[k];
+  const auto numerator =
+      cubic_of(K, D, [alpha](const dvec3& k, const dvec3& d) { return alpha * glm::dot(k, d); });
+  const auto chord = cubic_of(lengths, L, [](double q, double l) { return q * l; });
+  double lo = kInfinity;
+  double hi = -kInfinity;
+  double magnitude = 0.0;
+  for (std::size_t k = 0; k < 10; ++k) {
+    lo = std::min(lo, numerator[k] - chord[k]);
+    hi = std::max(hi, numerator[k] - chord[k]);
+    magnitude = std::max(magnitude, std::abs(numerator[k]) + std::abs(chord[k]));
+  }
+  const double widest = longest_of(D);
+  magnitude += std::abs(alpha) * patch.longest * 4.0 * widest;
+  Enclosure e{};
+  // The residue vanishes at the corners, so lo <= 0 <= hi.
+  e.sigma = {std::min(0.0, lo - kRounding * magnitude) / least,
+             std::max(0.0, hi + kRounding * magnitude) / least};
+  if (!((e.sigma.hi - e.sigma.lo) * widest < farthest)) return wide;
+  e.D = D;
+  e.count = 6;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    e.points[i] = T[i] + D[i] * L[i];
+    e.points[i + 3] = (T[i] + T[j] + D[i] * L[j] + D[j] * L[i]) * 0.5;
+  }
+  const double reach = widest * std::max({std::abs(L[0]), std::abs(L[1]), std::abs(L[2])});
+  e.radius = kRounding * (longest_of(T) + reach + magnitude / least * widest);
+  return e;
+}
+
+Enclosure enclose_sphere(const Patch& patch, const Part& part, const PartCorners& corners) {
+  const auto& D = corners.D;
+  // The least Bernstein coefficient of |D|^2.
+  const double shortest = std::sqrt(
+      std::max(0.0, std::min({dot(D[0], D[0]).lo, dot(D[1], D[1]).lo, dot(D[2], D[2]).lo,
+                              dot(D[0], D[1]).lo, dot(D[1], D[2]).lo, dot(D[2], D[0]).lo})));
+  const Enclosure wide = around_base(corners, patch.longest * (1.0 + kRounding));
+  if (!(shortest > 0.0)) return wide;
+  const double limit = patch.longest / shortest * (1.0 + kRounding);
+  const auto sigma = sphere_sigma_range(patch, part, corners, Interval(-limit, limit));
+  if (!sigma || !std::isfinite(sigma->lo) || !std::isfinite(sigma->hi)) return wide;
+  Enclosure e = around_base(corners, 0.0);
+  e.D = corners.D;
+  e.sigma = *sigma;
+  const double widest = longest_of(corners.D) * std::max(std::abs(sigma->lo), std::abs(sigma->hi));
+  e.radius += kRounding * (widest + patch.longest);
+  return e;
+}
+
+Enclosure enclose_surface(const SurfaceChoice& choice, const Patch& patch, const Part& part) {
+  const PartCorners corners = corners_of(patch, part);
+  if (choice.surface == SURFACE_FLAT) return around_base(corners, 0.0);
+  if (choice.surface == SURFACE_SPHERE) return enclose_sphere(patch, part, corners);
+  return choice.shell == SHELL_NORMAL ? enclose_cubic(patch, part, corners, choice.alpha)
+                                      : enclose_quotient(patch, part, corners, choice.alpha);
+}
+
+}  // namespace
+
+Patch patch_of(uint shell, const Triangle& tri) {
+  Patch patch{};
+  for (int i = 0; i < 3; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    patch.P[k] = dvec3(tri.Position[i]);
+    patch.N[k] = dvec3(tri.Normal[i]);
+    patch.D[k] =
+        shell == SHELL_HEIGHT ? patch.N[k] / static_cast<double>(tri.NormDot[i]) : patch.N[k];
+    patch.data[k] = dvec3(tri.VertexData[i]);
+  }
+  patch.longest = static_cast<double>(tri.TriNormal.w);
+  return patch;
+}
+
+std::array<Part, 4> quarter(const Part& part) {
+  const dvec3 a = (part[1] + part[2]) * 0.5;
+  const dvec3 b = (part[2] + part[0]) * 0.5;
+  const dvec3 c = (part[0] + part[1]) * 0.5;
+  return {Part{part[0], c, b}, Part{c, part[1], a}, Part{b, a, part[2]}, Part{a, b, c}};
+}
+
+PartCorners corners_of(const Patch& patch, const Part& part) {
+  PartCorners corners{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    corners.T[k] = weigh(part[k], patch.P);
+    corners.D[k] = weigh(part[k], patch.D);
+  }
+  return corners;
+}
+
+Enclosure enclose(const SurfaceChoice& choice, const Patch& patch, const Part& part) {
+  Enclosure e = enclose_surface(choice, patch, part);
+  bool finite = std::isfinite(e.sigma.lo) && std::isfinite(e.sigma.hi) && std::isfinite(e.radius);
+  for (std::size_t k = 0; k < e.count; ++k) {
+    finite = finite && std::isfinite(glm::dot(e.points[k], e.points[k]));
+  }
+  for (const dvec3& D : e.D) finite = finite && std::isfinite(glm::dot(D, D));
+  // An overflow bounds nothing: a comparison with it must not say that the part is elsewhere.
+  if (!finite) {
+    e = Enclosure{};
+    e.count = 1;
+    e.radius = kInfinity;
+  }
+  return e;
+}
+
+Interval extent_along(const Enclosure& enclosure, const dvec3& origin, const dvec3& axis) {
+  double lo = kInfinity;
+  double hi = -kInfinity;
+  for (std::size_t k = 0; k < enclosure.count; ++k) {
+    const double x = glm::dot(enclosure.points[k] - origin, axis);
+    lo = std::min(lo, x);
+    hi = std::max(hi, x);
+  }
+  if (enclosure.sigma.lo < enclosure.sigma.hi) {
+    double least = kInfinity;
+    double most = -kInfinity;
+    for (const dvec3& D : enclosure.D) {
+      const double x = glm::dot(D, axis);
+      least = std::min({least, x * enclosure.sigma.lo, x * enclosure.sigma.hi});
+      most = std::max({most, x * enclosure.sigma.lo, x * enclosure.sigma.hi});
+    }
+    lo += least;
+    hi += most;
+  }
+  const double slack = enclosure.radius + kRounding * glm::length(origin);
+  return {lo - slack, hi + slack};
+}
+
+}  // namespace trisect

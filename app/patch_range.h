@@ -1,0 +1,73 @@
+// Where a part of a patch can lie: proven enclosures in double precision, from which the bounds of
+// patches (patch_bounds.h) and the reference search (patch_search.h) are made.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "app/interval.h"
+#include "app/shared.h"
+#include "app/surface_choice.h"
+
+namespace trisect {
+
+// The baked numbers in double precision.
+struct Patch {
+  std::array<glm::dvec3, 3> P;
+  std::array<glm::dvec3, 3> N;
+  std::array<glm::dvec3, 3> D;     // the shell's directions
+  std::array<glm::dvec3, 3> data;  // curvatures and angle
+  double longest;                  // edge
+};
+
+Patch patch_of(uint shell, const Triangle& tri);
+
+// A part of the triangle: the weights of its corners.
+using Part = std::array<glm::dvec3, 3>;
+
+inline constexpr Part kWholeTriangle{glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)};
+
+// The four parts between a part's corners and the middles of its edges, the middle one last.
+std::array<Part, 4> quarter(const Part& part);
+
+inline glm::dvec3 weigh(const glm::dvec3& w, const std::array<glm::dvec3, 3>& p) {
+  return p[0] * w.x + p[1] * w.y + p[2] * w.z;
+}
+
+// Of a part: its corners on the base triangle and the shell's directions there. Both are linear
+// between.
+struct PartCorners {
+  std::array<glm::dvec3, 3> T;
+  std::array<glm::dvec3, 3> D;
+};
+
+PartCorners corners_of(const Patch& patch, const Part& part);
+
+// What contains S over a part: the hull of the points, plus sigma in `sigma` times the hull of D,
+// plus a ball of this radius (infinite where nothing is known).
+struct Enclosure {
+  std::array<glm::dvec3, 10> points;
+  std::size_t count;
+  std::array<glm::dvec3, 3> D;
+  Interval sigma;
+  double radius;
+};
+
+// Proven for any finite normals and alpha, roundings included, also those of a point evaluated in
+// double precision.
+//
+// flat:   the corners.
+// phong, normal shell: sigma is a quadratic in w, S a cubic: its ten control points over the part.
+// phong, height shell: sigma = alpha D.K / |D|^2 with K quadratic in w. With L the linear function
+//         that agrees with sigma at the corners, T + L D is quadratic, six control points, and
+//         sigma - L = (alpha D.K - L |D|^2) / |D|^2 lies between the quotients of the extreme
+//         Bernstein coefficients: a band whose width falls with the square of the part's size.
+//         Where D turns too fast for that, |sigma D| <= |alpha K|.
+// sphere: the range of sigma, or |sigma D| <= the longest edge.
+Enclosure enclose(const SurfaceChoice& choice, const Patch& patch, const Part& part);
+
+// Range of (x - origin).axis over an enclosure, axis of unit length.
+Interval extent_along(const Enclosure& enclosure, const glm::dvec3& origin, const glm::dvec3& axis);
+
+}  // namespace trisect

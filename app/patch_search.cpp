@@ -1,0 +1,368 @@
+#include "app/patch_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "app/sphere_range.h"
+
+namespace trisect {
+namespace {
+
+using glm::dvec2;
+using glm::dvec3;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// A part at this depth is a 4096th of the edges: what folds or fails to converge there is left.
+constexpr int kDeepest = 12;
+// From this depth on, a part whose enclosure does not shrink with it is left too.
+constexpr int kTornDepth = 7;
+// Sampled tangents are trusted from this depth on.
+constexpr int kTrustSamples = 2;
+// A root may lie outside the triangle by this weight: the neighbour's rounding.
+constexpr double kOutside = 1e-12;
+// Of the scale of the scene about the line: some hundred roundings of coordinates.
+constexpr double kResidual = 1e-13;
+// Relative, of a tangent: more than a hundred roundings.
+constexpr double kTangentRounding = 1e-12;
+
+// The weights within a part of the point with weights w; its corners in the triangle's weights.
+dvec3 weights_within(const Part& part, const dvec3& w) {
+  const dvec2 a(part[1].y - part[0].y, part[1].z - part[0].z);
+  const dvec2 b(part[2].y - part[0].y, part[2].z - part[0].z);
+  const dvec2 x(w.y - part[0].y, w.z - part[0].z);
+  const double area = a.x * b.y - a.y * b.x;
+  const double u = (x.x * b.y - x.y * b.x) / area;
+  const double v = (a.x * x.y - a.y * x.x) / area;
+  return {1.0 - u - v, u, v};
+}
+
+double least(const dvec3& w) {
+  return std::min({w.x, w.y, w.z});
+}
+
+double middle(const Interval& a) {
+  return a.lo * 0.5 + a.hi * 0.5;
+}
+
+double half_width(const Interval& a) {
+  return (a.hi - a.lo) * 0.5;
+}
+
+// The mean of a quadratic's six values and the distance from it of its farthest Bernstein
+// coefficient: a ball that holds the quadratic. Values at the corners, then amid the edges 01
+// 12 20.
+std::pair<dvec3, double> ball_of_quadratic(std::array<dvec3, 6> values) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    values[i + 3] = values[i + 3] * 2.0 - (values[i] + values[(i + 1) % 3]) * 0.5;
+  }
+  dvec3 center(0.0);
+  for (const dvec3& value : values) center += value;
+  center /= 6.0;
+  double radius = 0.0;
+  // Not std::max, which would drop a NaN.
+  for (const dvec3& value : values) {
+    const double distance = glm::distance(value, center);
+    if (!(distance <= radius)) radius = distance;
+  }
+  return {center, radius};
+}
+
+in_double::Triangle widened(const Triangle& tri) {
+  in_double::Triangle wide{};
+  for (int i = 0; i < 3; ++i) {
+    wide.Position[i] = glm::dvec4(tri.Position[i]);
+    wide.Normal[i] = glm::dvec4(tri.Normal[i]);
+    wide.VertexData[i] = glm::dvec4(tri.VertexData[i]);
+  }
+  wide.TriNormal = glm::dvec4(tri.TriNormal);
+  wide.NormDot = glm::dvec4(tri.NormDot);
+  wide.Domain = glm::dvec4(tri.Domain);
+  return wide;
+}
+
+// Near a fold Newton's iterates agree with a double root to half their digits only; two roots on
+// the same side of the surface that are this near are one.
+bool same_root(const PatchFindings::Root& a, const PatchFindings::Root& b, const dvec3& direction) {
+  const bool same_side =
+      (glm::dot(a.normal, direction) < 0.0) == (glm::dot(b.normal, direction) < 0.0);
+  return glm::distance(a.weights, b.weights) < (same_side ? 1e-6 : 1e-9);
+}
+
+void record(const PatchFindings::Root& root, const Line& line, PatchFindings& findings) {
+  if (least(root.weights) < -kOutside) return;
+  for (const PatchFindings::Root& known : findings.roots) {
+    if (same_root(known, root, line.direction)) return;
+  }
+  findings.roots.push_back(root);
+}
+
+}  // namespace
+
+void PatchFindings::clear() {
+  roots.clear();
+  doubt_t = kInfinity;
+}
+
+Line line_along(const dvec3& origin, const dvec3& direction) {
+  const dvec3 helper = std::abs(direction.x) < 0.6 ? dvec3(1.0, 0.0, 0.0) : dvec3(0.0, 1.0, 0.0);
+  const dvec3 first = glm::normalize(glm::cross(direction, helper));
+  return {origin, direction, {first, glm::cross(direction, first)}};
+}
+
+struct PatchSearch::Query {
+  const Line& line;
+  double t_min;
+  double t_max;
+  double residual;  // of a root, distance from the line
+};
+
+PatchSearch::PatchSearch(const SurfaceChoice& choice, const Triangle& tri, int levels)
+    : choice_(choice),
+      patch_(patch_of(choice.shell, tri)),
+      shape_{choice.surface, choice.shell, choice.alpha},
+      tri_(widened(tri)),
+      defined_(true),
+      quadratic_tangents_(choice.surface == SURFACE_FLAT ||
+                          (choice.surface == SURFACE_PHONG && choice.shell == SHELL_NORMAL)) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    // A flat triangle needs no direction.
+    if (choice.surface == SURFACE_FLAT) patch_.D[i] = dvec3(0.0);
+    defined_ = defined_ && std::isfinite(glm::dot(patch_.D[i], patch_.D[i])) &&
+               std::isfinite(glm::dot(patch_.P[i], patch_.P[i]));
+  }
+  if (!defined_) return;
+  nodes_.push_back(node_of(kWholeTriangle));
+  std::size_t first = 0;
+  for (int level = 0; level < levels; ++level) {
+    const std::size_t last = nodes_.size();
+    for (; first < last; ++first) {
+      for (const Part& part : quarter(nodes_[first].part)) nodes_.push_back(node_of(part));
+    }
+  }
+}
+
+PatchSearch::Point PatchSearch::evaluate(const dvec3& w) const {
+  const in_double::Displacement sigma = in_double::displacement_and_derivatives(shape_, tri_, w);
+  const dvec3 D = weigh(w, patch_.D);
+  const dvec3 T = weigh(w, patch_.P);
+  return {T + D * sigma.s,
+          patch_.P[1] - patch_.P[0] + D * sigma.u + (patch_.D[1] - patch_.D[0]) * sigma.s,
+          patch_.P[2] - patch_.P[0] + D * sigma.v + (patch_.D[2] - patch_.D[0]) * sigma.s};
+}
+
+PatchSearch::Node PatchSearch::node_of(const Part& part) const {
+  Node node{};
+  node.part = part;
+  node.enclosure = enclose(choice_, patch_, part);
+  node.tangents = tangents_of(part);
+  // The others' own enclosure is of second order already.
+  if (choice_.surface == SURFACE_SPHERE && node.tangents.proven) {
+    node.tangent_enclosure = enclose_by_tangents(part, node.tangents);
+  }
+  return node;
+}
+
+PatchSearch::Tangents PatchSearch::tangents_of(const Part& part) const {
+  if (choice_.surface == SURFACE_SPHERE) {
+    const PartCorners corners = corners_of(patch_, part);
+    if (const auto sigma = sphere_derivative_ranges(patch_, part, corners)) {
+      const dvec3 D = (corners.D[0] + corners.D[1] + corners.D[2]) / 3.0;
+      double turn = 0.0;
+      for (const dvec3& corner : corners.D) turn = std::max(turn, glm::distance(D, corner));
+      const auto ball = [&](std::size_t k, const Interval& slope) {
+        const dvec3 dD = patch_.D[k] - patch_.D[0];
+        const double radius = (glm::length(D) + turn) * half_width(slope) +
+                              turn * std::abs(middle(slope)) +
+                              glm::length(dD) * half_width(sigma->s);
+        return std::pair(patch_.P[k] - patch_.P[0] + D * middle(slope) + dD * middle(sigma->s),
+                         radius + kTangentRounding * patch_.longest);
+      };
+      const auto [S_u, radius_u] = ball(1, sigma->u);
+      const auto [S_v, radius_v] = ball(2, sigma->v);
+      if (std::isfinite(radius_u) && std::isfinite(radius_v)) {
+        return {S_u, S_v, radius_u, radius_v, true};
+      }
+    }
+  }
+  std::array<dvec3, 6> S_u{};
+  std::array<dvec3, 6> S_v{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Point corner = evaluate(part[i]);
+    const Point amid = evaluate((part[i] + part[(i + 1) % 3]) * 0.5);
+    S_u[i] = corner.S_u;
+    S_v[i] = corner.S_v;
+    S_u[i + 3] = amid.S_u;
+    S_v[i + 3] = amid.S_v;
+  }
+  Tangents tangents{};
+  tangents.proven = quadratic_tangents_;
+  std::tie(tangents.S_u, tangents.radius_u) = ball_of_quadratic(S_u);
+  std::tie(tangents.S_v, tangents.radius_v) = ball_of_quadratic(S_v);
+  const double widen = tangents.proven ? 1.0 : 1.5;
+  const double slack = kTangentRounding * (glm::length(tangents.S_u) + glm::length(tangents.S_v));
+  tangents.radius_u = tangents.radius_u * widen + slack;
+  tangents.radius_v = tangents.radius_v * widen + slack;
+  return tangents;
+}
+
+// S(w) = S(c) + a du + b dv with means a, b of the tangents between c and w.
+Enclosure PatchSearch::enclose_by_tangents(const Part& part, const Tangents& tangents) const {
+  const dvec3 center = (part[0] + part[1] + part[2]) / 3.0;
+  const dvec3 S = in_double::surface_point(shape_, tri_, center);
+  Enclosure e{};
+  e.count = 3;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const dvec3 d = part[k] - center;
+    e.points[k] = S + tangents.S_u * d.y + tangents.S_v * d.z;
+    e.radius =
+        std::max(e.radius, tangents.radius_u * std::abs(d.y) + tangents.radius_v * std::abs(d.z));
+  }
+  e.radius += kTangentRounding * (glm::length(S) + patch_.longest);
+  return e;
+}
+
+void PatchSearch::roots(const Line& line, double t_min, double t_max,
+                        PatchFindings& findings) const {
+  if (!defined_) return;
+  double scale = glm::length(line.origin) + patch_.longest;
+  for (const dvec3& p : patch_.P) scale = std::max(scale, glm::distance(p, line.origin));
+  visit(nodes_[0], 0, 0, {line, t_min, t_max, kResidual * scale}, findings);
+}
+
+// The least t at which an enclosed part may meet the line; nothing if it does not, or only comes
+// within the margin of it, which is noted.
+std::optional<double> PatchSearch::meet(const Enclosure& enclosure, const Query& query,
+                                        PatchFindings& findings) {
+  const Line& line = query.line;
+  double off = 0.0;
+  for (const dvec3& axis : line.across) {
+    const Interval x = extent_along(enclosure, line.origin, axis);
+    off = std::max({off, x.lo, -x.hi});
+    if (off > findings.margin) return std::nullopt;
+  }
+  const Interval t = extent_along(enclosure, line.origin, line.direction);
+  if (t.lo > query.t_max || t.hi < query.t_min) return std::nullopt;
+  if (off == 0.0) return t.lo;
+  findings.doubt_t = std::min(findings.doubt_t, t.lo);
+  return std::nullopt;
+}
+
+// Where a normal shell's direction vanishes or turns over the sphere surface jumps by up to the
+// longest edge: no division makes such a part small.
+bool PatchSearch::is_torn(const Enclosure& enclosure, int depth) const {
+  constexpr double most = 16.0;
+  double width = 0.0;
+  for (const dvec3& D : enclosure.D) width = std::max(width, glm::length(D));
+  width *= half_width(enclosure.sigma);
+  return enclosure.radius + width > most * std::ldexp(patch_.longest, -depth);
+}
+
+void PatchSearch::visit(const Node& node, std::size_t index, int depth, const Query& query,
+                        PatchFindings& findings) const {
+  const Line& line = query.line;
+  const std::optional<double> t = meet(node.enclosure, query, findings);
+  if (!t) return;
+  if (node.tangent_enclosure.count > 0 && !meet(node.tangent_enclosure, query, findings)) return;
+
+  // The map across the line does not fold if d.(a x b) keeps its sign for every a about S_u and b
+  // about S_v: the difference of two of its values is then a mean of such a, b times the difference
+  // of w.
+  const auto& [S_u, S_v, radius_u, radius_v, proven] = node.tangents;
+  const dvec3& d = line.direction;
+  const double turn = std::abs(glm::dot(d, glm::cross(S_u, S_v)));
+  const double spread = radius_u * glm::length(glm::cross(d, S_v)) +
+                        radius_v * glm::length(glm::cross(d, S_u)) + radius_u * radius_v;
+  if (turn > spread && (proven || depth >= kTrustSamples)) {
+    PatchFindings::Root root{};
+    root.weights = (node.part[0] + node.part[1] + node.part[2]) / 3.0;
+    const double size =
+        std::abs(node.part[1].y - node.part[0].y) + std::abs(node.part[1].z - node.part[0].z);
+    // Some slack: a root that rounding puts beside this part is not worth looking for further.
+    constexpr double beside = 1e-6;
+    if (newton(query, 4.0 * size, root) &&
+        least(weights_within(node.part, root.weights)) > -beside) {
+      record(root, line, findings);
+      return;
+    }
+  }
+  if (depth == kDeepest || (depth >= kTornDepth && is_torn(node.enclosure, depth))) {
+    search_unresolved(node, *t, query, findings);
+    return;
+  }
+  const std::size_t child = index * 4 + 1;
+  if (child < nodes_.size()) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      visit(nodes_[child + k], child + k, depth + 1, query, findings);
+    }
+  } else {
+    // The parent's tangents hold the part's: most parts are off the line by them already, at a
+    // tenth of the cost of their own ranges.
+    const bool by_parent = choice_.surface == SURFACE_SPHERE && proven;
+    for (const Part& part : quarter(node.part)) {
+      if (by_parent && !meet(enclose_by_tangents(part, node.tangents), query, findings)) continue;
+      visit(node_of(part), nodes_.size(), depth + 1, query, findings);
+    }
+  }
+}
+
+// Newton's iteration from root.weights on the two coordinates across the line, steps halved until
+// they help. True if it ends in a root, of the surface beyond the triangle too.
+bool PatchSearch::newton(const Query& query, double longest_step, PatchFindings::Root& root) const {
+  const Line& line = query.line;
+  const auto offset = [&](const Point& p) {
+    const dvec3 x = p.S - line.origin;
+    return dvec2(glm::dot(x, line.across[0]), glm::dot(x, line.across[1]));
+  };
+  constexpr int most_steps = 25;
+  constexpr int most_halvings = 6;
+  dvec3& w = root.weights;
+  Point p = evaluate(w);
+  dvec2 F = offset(p);
+  bool polished = false;
+  for (int i = 0; i < most_steps && !polished; ++i) {
+    // One more step from where the residual is met: it costs little and gives the last digits.
+    polished = glm::length(F) <= query.residual;
+    const dvec2 a(glm::dot(p.S_u, line.across[0]), glm::dot(p.S_u, line.across[1]));
+    const dvec2 b(glm::dot(p.S_v, line.across[0]), glm::dot(p.S_v, line.across[1]));
+    const double determinant = a.x * b.y - a.y * b.x;
+    dvec2 step = dvec2(b.x * F.y - b.y * F.x, a.y * F.x - a.x * F.y) / determinant;
+    const double length = glm::length(step);
+    if (!(length < kInfinity)) break;
+    if (length > longest_step) step *= longest_step / length;
+    bool better = false;
+    for (int k = 0; k < (polished ? 1 : most_halvings) && !better; ++k, step *= 0.5) {
+      const dvec3 moved(w.x - step.x - step.y, w.y + step.x, w.z + step.y);
+      const Point q = evaluate(moved);
+      const dvec2 G = offset(q);
+      if (!(glm::length(G) < glm::length(F))) continue;
+      better = true;
+      w = moved;
+      p = q;
+      F = G;
+    }
+    if (!better) break;
+  }
+  if (!(glm::length(F) <= query.residual)) return false;
+  root.t = glm::dot(p.S - line.origin, line.direction);
+  root.normal = glm::normalize(glm::cross(p.S_u, p.S_v));
+  return std::isfinite(root.t) && std::isfinite(glm::dot(root.normal, root.normal));
+}
+
+// A part as small as they get that may fold: from each of its corners and its centre, Newton's
+// iteration may come to another root. Doubtful in any case, for t from `t` on.
+void PatchSearch::search_unresolved(const Node& node, double t, const Query& query,
+                                    PatchFindings& findings) const {
+  findings.doubt_t = std::min(findings.doubt_t, t);
+  const dvec3 center = (node.part[0] + node.part[1] + node.part[2]) / 3.0;
+  for (const dvec3& start : {center, node.part[0], node.part[1], node.part[2]}) {
+    PatchFindings::Root root{};
+    root.weights = start;
+    if (newton(query, 4.0 / (1 << kDeepest), root)) record(root, query.line, findings);
+  }
+}
+
+}  // namespace trisect

@@ -1,0 +1,29 @@
+// Ranges of the sphere surface over a part of a patch, by interval arithmetic on its closed form
+// (shaders/surface.glsl).
+#pragma once
+
+#include <optional>
+
+#include "app/interval.h"
+#include "app/patch_range.h"
+
+namespace trisect {
+
+// Range of sigma, in units of D, over a part. A height s_i that interval arithmetic does not bound
+// counts as `unbounded`; nothing if that is nothing.
+std::optional<Interval> sphere_sigma_range(const Patch& patch, const Part& part,
+                                           const PartCorners& corners,
+                                           const std::optional<Interval>& unbounded = {});
+
+// Ranges of sigma and of its derivatives along u and v. Nothing where a height may be at its limit
+// or its line may miss the sphere, and at a vertex, about which the derivatives of the curvature
+// turn.
+struct SigmaRanges {
+  Interval s;
+  Interval u;
+  Interval v;
+};
+std::optional<SigmaRanges> sphere_derivative_ranges(const Patch& patch, const Part& part,
+                                                    const PartCorners& corners);
+
+}  // namespace trisect
