@@ -8,6 +8,10 @@ namespace trisect {
 // Renders the model to the output file and prints the figures; returns an exit code.
 int render(const RenderOptions& options);
 
+// Compares the solvers with the oracle, prints a table; returns exit_different if the robust one
+// does not keep its promises.
+int accuracy(const AccuracyOptions& options);
+
 // Lists the Vulkan devices; returns an exit code.
 int list_devices();
 

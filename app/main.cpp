@@ -129,8 +129,9 @@ void add_render(CLI::App& app, RenderOptions& options, RenderText& text) {
       ->type_name("DEG");
   render
       ->add_option("--backend", text.backend,
-                   "Who traces: vulkan or cpu (the same kernel as C++), default vulkan")
-      ->check(one_of({"vulkan", "cpu"}))
+                   "Who traces: vulkan, cpu (the same kernel as C++) or oracle (double precision, "
+                   "slow), default vulkan")
+      ->check(one_of({"vulkan", "cpu", "oracle"}))
       ->type_name("NAME");
   render
       ->add_option("--device", options.device,
@@ -150,6 +151,53 @@ void add_render(CLI::App& app, RenderOptions& options, RenderText& text) {
       ->type_name("FILE.json");
 }
 
+// The text of `accuracy`'s options.
+struct AccuracyText {
+  std::optional<std::string> size;
+  std::optional<std::string> surface;
+  std::optional<std::string> shell;
+};
+
+void add_accuracy(CLI::App& app, AccuracyOptions& options, AccuracyText& text) {
+  CLI::App* command = app.add_subcommand(
+      "accuracy", "Compare the solvers with the double-precision oracle, pixel by pixel");
+  command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  command->add_option("MODEL", options.models, "OBJ files")
+      ->required()
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--size", text.size, "Image size in pixels, default 800x600")
+      ->type_name("WxH");
+  command->add_option("--surface", text.surface, "flat, phong or sphere, default phong and sphere")
+      ->check(one_of({"flat", "phong", "sphere"}))
+      ->type_name("NAME");
+  command->add_option("--shell", text.shell, "normal or height, default both")
+      ->check(one_of({"normal", "height"}))
+      ->type_name("NAME");
+  command
+      ->add_option("--device", options.device,
+                   "Vulkan device: its number in `trisect devices` or a part of its name")
+      ->check(not_empty())
+      ->type_name("D");
+  command->add_option("--json", options.json, "Write the table as JSON")
+      ->check(not_empty())
+      ->type_name("FILE");
+}
+
+uint surface_of(const std::string& name) {
+  return name == "flat" ? SURFACE_FLAT : name == "phong" ? SURFACE_PHONG : SURFACE_SPHERE;
+}
+
+uint shell_of(const std::string& name) {
+  return name == "height" ? SHELL_HEIGHT : SHELL_NORMAL;
+}
+
+int run_accuracy(AccuracyOptions options, const AccuracyText& text) {
+  if (text.size) parse_size("--size", *text.size, options.width, options.height);
+  if (text.surface) options.surfaces = {surface_of(*text.surface)};
+  if (text.shell) options.shells = {shell_of(*text.shell)};
+  return accuracy(options);
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Ray-traces triangle models as smooth curved surfaces, in a Vulkan compute shader.",
                "trisect");
@@ -158,9 +206,13 @@ int run(int argc, char** argv) {
   RenderOptions options;
   RenderText text;
   add_render(app, options, text);
+  AccuracyOptions accuracy_options;
+  AccuracyText accuracy_text;
+  add_accuracy(app, accuracy_options, accuracy_text);
   app.add_subcommand("devices", "List the Vulkan devices, and what those that cannot be used lack");
   app.footer(
-      "Exit codes: 0 done, 2 usage, 3 bad input, 4 no usable device, 70 internal error, "
+      "Exit codes: 0 done, 1 a promise of accuracy not kept, 2 usage, 3 bad input, 4 no usable "
+      "device, 70 internal error, "
       "130 interrupted.");
   const auto is_named = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(is_named).empty()) {
@@ -173,14 +225,15 @@ int run(int argc, char** argv) {
     return fail(exit_usage, std::string(error.what()) + " (see trisect --help)");
   }
   if (app.got_subcommand("devices")) return list_devices();
-  if (text.surface == "flat") options.surface = SURFACE_FLAT;
-  if (text.surface == "sphere") options.surface = SURFACE_SPHERE;
+  if (app.got_subcommand("accuracy")) return run_accuracy(accuracy_options, accuracy_text);
+  if (!text.surface.empty()) options.surface = surface_of(text.surface);
   if (text.backend == "cpu") options.backend = Backend::cpu;
+  if (text.backend == "oracle") options.backend = Backend::oracle;
   if (text.preset) {
     options.shell = SHELL_HEIGHT;
     options.solver = SOLVER_BISECT;
   }
-  if (text.shell) options.shell = *text.shell == "height" ? SHELL_HEIGHT : SHELL_NORMAL;
+  if (text.shell) options.shell = shell_of(*text.shell);
   if (text.solver) options.solver = *text.solver == "bisect" ? SOLVER_BISECT : SOLVER_ROBUST;
   if (text.size) parse_size("--size", *text.size, options.width, options.height);
   if (text.eye) options.eye = parse_triple("--eye", *text.eye);

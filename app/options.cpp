@@ -41,7 +41,7 @@ const char* solver_name(uint solver) {
 }
 
 const char* backend_name(Backend backend) {
-  return backend == Backend::vulkan ? "vulkan" : "cpu";
+  return backend == Backend::vulkan ? "vulkan" : backend == Backend::cpu ? "cpu" : "oracle";
 }
 
 void parse_size(const std::string& option, const std::string& text, uint32_t& width,

@@ -4,13 +4,14 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/shared.h"
 
 namespace trisect {
 
 // Who traces.
-enum class Backend { vulkan, cpu };
+enum class Backend { vulkan, cpu, oracle };
 
 struct RenderOptions {
   std::string model;
@@ -33,6 +34,17 @@ struct RenderOptions {
   bool validation = false;
   uint32_t runs = 1;
   std::string stats;
+};
+
+struct AccuracyOptions {
+  std::vector<std::string> models;
+  std::vector<uint> surfaces{SURFACE_PHONG, SURFACE_SPHERE};
+  std::vector<uint> shells{SHELL_NORMAL, SHELL_HEIGHT};
+  uint32_t width = 800;
+  uint32_t height = 600;
+  double alpha = 0.65;
+  std::string device;
+  std::string json;
 };
 
 // The names that the command line and the JSON use.

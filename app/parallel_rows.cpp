@@ -56,6 +56,7 @@ void parallel_rows(uint32_t height, const std::function<void(uint32_t)>& row,
   }
   threads.clear();
   if (error) std::rethrow_exception(error);
+  if (progress) progress(height);
 }
 
 }  // namespace trisect

@@ -17,6 +17,7 @@
 #include "app/image_file.h"
 #include "app/interrupt.h"
 #include "app/mesh_builder.h"
+#include "app/oracle_tracer.h"
 #include "app/progress.h"
 #include "app/statistics.h"
 #include "app/trace_settings.h"
@@ -119,6 +120,13 @@ std::vector<std::string> trace(const RenderOptions& options, const BakedScene& s
   const KernelChoice choice{options.solver, aovs || options.evals, options.evals};
   if (options.backend == Backend::vulkan) {
     return trace_on_vulkan(options, scene, params, choice, frame, statistics);
+  }
+  if (options.backend == Backend::oracle) {
+    trace_on_host(options, "the oracle, double precision", statistics,
+                  [&](const std::function<void(uint32_t)>& progress) {
+                    frame = frame_of(trace_with_oracle(scene, params, progress), scene, params);
+                  });
+    return {};
   }
   trace_on_host(options, "the kernel as C++, single precision", statistics,
                 [&](const std::function<void(uint32_t)>& progress) {

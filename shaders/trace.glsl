@@ -117,17 +117,14 @@ CastHit cast_ray(CastRay asked) {
   return result;
 }
 
-void trace_pixel(uvec2 pixel, OUT(vec4) color, OUT(PixelAovs) aovs) {
-  PixelRay ray = pixel_ray(pixel);
-  Hit hit;
-  Counts counts;
-  trace_ray(ray, hit, counts);
+// The outputs of a pixel whose ray met this, but for its counts.
+void shade_pixel(PixelRay ray, Hit hit, OUT(vec4) color, OUT(PixelAovs) aovs) {
   aovs.normal_z = vec4(0.0);
   aovs.geometric_u = vec4(0.0);
   aovs.v = real(0.0);
   aovs.triangle = hit.triangle;
-  aovs.evaluations = counts.evaluations;
-  aovs.candidates = counts.candidates;
+  aovs.evaluations = 0u;
+  aovs.candidates = 0u;
   color = vec4(sky(ray.view), 0.0);
   if (hit.triangle == NO_TRIANGLE) return;
   vec3 normal = vertex_normal(triangles[hit.triangle], hit.weights);
@@ -141,4 +138,14 @@ void trace_pixel(uvec2 pixel, OUT(vec4) color, OUT(PixelAovs) aovs) {
         vec4(geometric_normal(scene_shape(), triangles[hit.triangle], hit.weights), hit.weights.y);
     aovs.v = hit.weights.z;
   }
+}
+
+void trace_pixel(uvec2 pixel, OUT(vec4) color, OUT(PixelAovs) aovs) {
+  PixelRay ray = pixel_ray(pixel);
+  Hit hit;
+  Counts counts;
+  trace_ray(ray, hit, counts);
+  shade_pixel(ray, hit, color, aovs);
+  aovs.evaluations = counts.evaluations;
+  aovs.candidates = counts.candidates;
 }

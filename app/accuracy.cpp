@@ -1,0 +1,94 @@
+#include "app/accuracy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "app/oracle_tracer.h"
+
+namespace trisect {
+namespace {
+
+using glm::dvec3;
+
+double ulp_of(float x) {
+  return static_cast<double>(std::nextafter(std::abs(x), std::numeric_limits<float>::infinity())) -
+         static_cast<double>(std::abs(x));
+}
+
+double degrees_between(const dvec3& a, const dvec3& b) {
+  return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
+}
+
+bool has_nan(const vec4& color, const PixelAovs& aov) {
+  return glm::any(glm::isnan(color)) || glm::any(glm::isnan(aov.normal_z)) ||
+         glm::any(glm::isnan(aov.geometric_u)) || std::isnan(aov.v);
+}
+
+// The pixels that both hit, one after the other.
+struct Errors {
+  std::vector<double> off_surface;
+  std::vector<double> depth_ulp;
+  std::vector<double> normal_degrees;
+};
+
+}  // namespace
+
+Quantiles quantiles_of(std::vector<double> values) {
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  const std::size_t last = values.size() - 1;
+  return {values[last / 2], values[(last * 99 + 99) / 100], values[last]};
+}
+
+Accuracy accuracy_of(const Frame& frame, const OracleFrame& truth, const BakedScene& scene,
+                     const TraceParams& params) {
+  if (frame.aovs.size() != truth.pixels.size()) {
+    throw std::logic_error("the frame has no AOVs or is not of the oracle's size");
+  }
+  Accuracy accuracy;
+  accuracy.pixels = truth.pixels.size();
+  Errors errors;
+  std::vector<double> evaluations;
+  for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+    const OracleAnswer& answer = truth.pixels[i];
+    const PixelAovs& aov = frame.aovs[i];
+    if (aov.candidates > 0) {
+      evaluations.push_back(static_cast<double>(aov.evaluations) / aov.candidates);
+    }
+    if (has_nan(frame.colors[i], aov)) ++accuracy.nans;
+    if (answer.hit) ++accuracy.hits;
+    if (!answer.decidable) {
+      ++accuracy.undecidable;
+      continue;
+    }
+    const bool hit = aov.triangle != NO_TRIANGLE;
+    if (hit && !answer.hit) ++accuracy.wrong_hits;
+    if (!hit && answer.hit) ++accuracy.missed;
+    if (!hit || !answer.hit) continue;
+    const auto x = static_cast<uint32_t>(i % truth.width);
+    const auto y = static_cast<uint32_t>(i / truth.width);
+    const OraclePixelRay pixel = oracle_pixel_ray(params, x, y);
+    const double error =
+        std::abs(static_cast<double>(aov.normal_z.w) - (pixel.anchor_distance + answer.root.t));
+    const double off = error * std::abs(glm::dot(answer.root.normal, pixel.ray.direction));
+    if (aov.triangle != answer.root.triangle && !(off <= kTie * scene.radius)) {
+      ++accuracy.wrong_patches;
+      continue;
+    }
+    errors.off_surface.push_back(off / scene.radius);
+    errors.depth_ulp.push_back(error / ulp_of(aov.normal_z.w));
+    // A tie's normal is that of the other face.
+    if (aov.triangle == answer.root.triangle) {
+      errors.normal_degrees.push_back(degrees_between(dvec3(aov.geometric_u), answer.root.normal));
+    }
+  }
+  accuracy.off_surface = quantiles_of(std::move(errors.off_surface));
+  accuracy.depth_ulp = quantiles_of(std::move(errors.depth_ulp));
+  accuracy.normal_degrees = quantiles_of(std::move(errors.normal_degrees));
+  accuracy.median_evaluations = quantiles_of(std::move(evaluations)).p50;
+  return accuracy;
+}
+
+}  // namespace trisect

@@ -1,0 +1,47 @@
+// How far a frame is off the oracle's.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "app/bake.h"
+#include "app/frame.h"
+#include "app/oracle.h"
+#include "app/shared.h"
+
+namespace trisect {
+
+// Of a sample: the middle one, the one that 1% exceed, the largest. 0 for an empty sample.
+struct Quantiles {
+  double p50 = 0.0;
+  double p99 = 0.0;
+  double max = 0.0;
+};
+
+Quantiles quantiles_of(std::vector<double> values);
+
+// All but `undecidable` is about decidable pixels only.
+struct Accuracy {
+  std::size_t pixels = 0;
+  std::size_t hits = 0;  // of the oracle
+  std::size_t undecidable = 0;
+  std::size_t wrong_hits = 0;     // hit where the oracle misses
+  std::size_t missed = 0;         // no hit where the oracle has one
+  std::size_t wrong_patches = 0;  // another triangle at another depth
+  std::size_t nans = 0;
+  // Where both hit the same surface:
+  Quantiles off_surface;  // |depth error| times |n.view|, over the scene's radius
+  Quantiles depth_ulp;    // |depth error| in units in the last place of the depth
+  Quantiles normal_degrees;
+  // Evaluations for each candidate, of pixels that have any; 0 if they were not counted.
+  double median_evaluations = 0.0;
+};
+
+// Two triangles whose depths agree to this part of the scene's radius share an edge there: a tie.
+constexpr double kTie = 1e-6;
+
+// frame: with AOVs, of the same size. Throws std::logic_error if it is not.
+Accuracy accuracy_of(const Frame& frame, const OracleFrame& truth, const BakedScene& scene,
+                     const TraceParams& params);
+
+}  // namespace trisect

@@ -1,0 +1,192 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/accuracy.h"
+#include "app/atomic_file.h"
+#include "app/cage.h"
+#include "app/commands.h"
+#include "app/cpu_tracer.h"
+#include "app/error.h"
+#include "app/interrupt.h"
+#include "app/mesh_builder.h"
+#include "app/oracle_tracer.h"
+#include "app/progress.h"
+#include "app/trace_settings.h"
+#include "app/vulkan_tracer.h"
+
+namespace trisect {
+namespace {
+
+// What the robust solver promises, in both shells: no wrong answer where the oracle is sure, few
+// where it is not, and errors of a few roundings.
+constexpr double kMostUndecidable = 2e-4;  // of the pixels
+constexpr double kOffSurfaceP99 = 2.5e-7;
+constexpr double kOffSurfaceMax = 2e-6;
+constexpr double kNormalDegreesP99 = 0.05;
+
+struct Row {
+  std::string model;
+  SurfaceChoice choice;
+  uint solver = SOLVER_ROBUST;
+  Accuracy accuracy;
+  std::size_t cpu_differs = 0;  // pixels whose hit, patch, Z, U or V the CPU has other bits of
+  double gpu_ms = 0.0;
+};
+
+bool keeps_promise(const Accuracy& a) {
+  return a.wrong_hits == 0 && a.missed == 0 && a.wrong_patches == 0 && a.nans == 0 &&
+         static_cast<double>(a.undecidable) <= kMostUndecidable * static_cast<double>(a.pixels) &&
+         a.off_surface.p99 <= kOffSurfaceP99 && a.off_surface.max <= kOffSurfaceMax &&
+         a.normal_degrees.p99 <= kNormalDegreesP99;
+}
+
+std::size_t count_differences(const Frame& a, const Frame& b) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.aovs.size(); ++i) {
+    const PixelAovs& p = a.aovs[i];
+    const PixelAovs& q = b.aovs[i];
+    const bool same = p.triangle == q.triangle && p.normal_z.w == q.normal_z.w &&
+                      p.geometric_u.w == q.geometric_u.w && p.v == q.v;
+    if (!same) ++count;
+  }
+  return count;
+}
+
+Row measure(const gpu::Device& device, const BakedScene& scene, const TraceSettings& settings,
+            const OracleFrame& truth) {
+  Row row;
+  row.choice = scene.choice;
+  row.solver = settings.solver;
+  const TraceParams params = make_params(scene, settings);
+  const KernelChoice choice{settings.solver, true, true};
+  VulkanTracer tracer(device, scene, settings.width, settings.height, choice);
+  Frame frame;
+  tracer.render(params, frame, stop_if_interrupted);  // the warm-up
+  row.gpu_ms = tracer.render(params, frame, stop_if_interrupted).gpu_ms;
+  row.accuracy = accuracy_of(frame, truth, scene, params);
+  Frame on_cpu;
+  trace_on_cpu(scene, params, choice, on_cpu, [](uint32_t) { stop_if_interrupted(); });
+  row.cpu_differs = count_differences(frame, on_cpu);
+  return row;
+}
+
+std::vector<Row> measure_model(const gpu::Device& device, const AccuracyOptions& options,
+                               const std::string& model) {
+  const Mesh mesh = build_mesh(read_obj(model), model).mesh;
+  std::vector<Row> rows;
+  for (const uint surface : options.surfaces) {
+    for (const uint shell : options.shells) {
+      BakedScene scene = bake(mesh, {surface, options.alpha, shell});
+      scene.cages = bake_cages(scene);
+      TraceSettings settings;
+      settings.width = options.width;
+      settings.height = options.height;
+      settings.camera =
+          framing_camera(mesh.positions, scene.origin, 45.0, {0.0, 1.0, 0.0},
+                         static_cast<double>(options.width) / static_cast<double>(options.height));
+      Progress progress(fmt::format("oracle, {}", model), options.height);
+      const OracleFrame truth = trace_with_oracle(scene, make_params(scene, settings),
+                                                  [&](uint32_t y) { progress.show(y); });
+      for (const uint solver : {SOLVER_ROBUST, SOLVER_BISECT}) {
+        settings.solver = solver;
+        rows.push_back(measure(device, scene, settings, truth));
+        rows.back().model = model;
+      }
+    }
+  }
+  return rows;
+}
+
+// The base name without its ending.
+std::string short_name(const std::string& path) {
+  const std::size_t begin = path.find_last_of('/') + 1;
+  return path.substr(begin, path.find_last_of('.') - begin);
+}
+
+std::string verdict(const Row& row) {
+  if (row.solver == SOLVER_BISECT) return "";
+  return keeps_promise(row.accuracy) ? "pass" : "FAIL";
+}
+
+std::string markdown_of(const Row& row) {
+  const Accuracy& a = row.accuracy;
+  return fmt::format(
+      "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.1e} | {:.1e} | {:.1e} | {:.2g} | {:.2g} | "
+      "{:.4f} | "
+      "{:.1f} | {} | {:.0f} | {} |\n",
+      short_name(row.model), surface_name(row.choice.surface), shell_name(row.choice.shell),
+      solver_name(row.solver), a.hits, a.undecidable, a.wrong_hits, a.missed, a.wrong_patches,
+      a.off_surface.p50, a.off_surface.p99, a.off_surface.max, a.depth_ulp.p50, a.depth_ulp.p99,
+      a.normal_degrees.p99, a.median_evaluations, row.cpu_differs, row.gpu_ms, verdict(row));
+}
+
+constexpr const char* kHeader =
+    "| model | surface | shell | solver | hit | undecidable | wrong hit | missed | wrong patch | "
+    "off p50 | "
+    "off p99 | off max | ulp p50 | ulp p99 | normal p99 | evals | cpu differs | ms | |\n"
+    "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+
+nlohmann::ordered_json json_of(const Quantiles& q) {
+  return {{"p50", q.p50}, {"p99", q.p99}, {"max", q.max}};
+}
+
+nlohmann::ordered_json json_of(const Row& row) {
+  const Accuracy& a = row.accuracy;
+  nlohmann::ordered_json json;
+  json["model"] = row.model;
+  json["surface"] = surface_name(row.choice.surface);
+  json["shell"] = shell_name(row.choice.shell);
+  json["solver"] = solver_name(row.solver);
+  json["pixels"] = a.pixels;
+  json["hits"] = a.hits;
+  json["undecidable"] = a.undecidable;
+  json["wrong_hits"] = a.wrong_hits;
+  json["missed"] = a.missed;
+  json["wrong_patches"] = a.wrong_patches;
+  json["nans"] = a.nans;
+  json["off_surface"] = json_of(a.off_surface);
+  json["depth_ulp"] = json_of(a.depth_ulp);
+  json["normal_degrees"] = json_of(a.normal_degrees);
+  json["evals_per_candidate"] = a.median_evaluations;
+  json["cpu_differs"] = row.cpu_differs;
+  json["gpu_ms"] = row.gpu_ms;
+  json["verdict"] = verdict(row);
+  return json;
+}
+
+}  // namespace
+
+int accuracy(const AccuracyOptions& options) {
+  const gpu::Instance instance(false);
+  const gpu::Device device(instance, options.device);
+  std::optional<AtomicFile> file;
+  if (!options.json.empty()) file.emplace(options.json);
+  fmt::print("device {}, driver {}, {}x{}\n\n{}", device.report().name, device.report().driver,
+             options.width, options.height, kHeader);
+  nlohmann::ordered_json json;
+  json["device"] = device.report().name;
+  json["driver"] = device.report().driver;
+  json["width"] = options.width;
+  json["height"] = options.height;
+  json["rows"] = nlohmann::ordered_json::array();
+  bool kept = true;
+  for (const std::string& model : options.models) {
+    for (const Row& row : measure_model(device, options, model)) {
+      fmt::print("{}", markdown_of(row));
+      std::fflush(stdout);
+      json["rows"].push_back(json_of(row));
+      kept = kept && (row.solver == SOLVER_BISECT || keeps_promise(row.accuracy));
+    }
+  }
+  if (file) {
+    file->write(json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    file->commit();
+  }
+  return kept ? exit_done : exit_different;
+}
+
+}  // namespace trisect

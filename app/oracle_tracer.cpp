@@ -1,0 +1,63 @@
+#include "app/oracle_tracer.h"
+
+#include "app/kernel_float.h"
+
+namespace trisect {
+
+using glm::dvec3;
+
+OraclePixelRay oracle_pixel_ray(const TraceParams& params, uint32_t x, uint32_t y) {
+  const double px = x + 0.5;
+  const double py = y + 0.5;
+  const dvec3 to_near =
+      dvec3(params.ray_corner) + dvec3(params.ray_dx) * px + dvec3(params.ray_dy) * py;
+  const double near_distance = glm::length(to_near);
+  const double anchor_distance = near_distance * static_cast<double>(params.anchor_corner.w);
+  OraclePixelRay pixel{{}, anchor_distance};
+  pixel.ray.origin =
+      dvec3(params.anchor_corner) + dvec3(params.anchor_dx) * px + dvec3(params.anchor_dy) * py;
+  pixel.ray.direction = to_near / near_distance;
+  pixel.ray.t_min = near_distance - anchor_distance;
+  return pixel;
+}
+
+OracleFrame trace_with_oracle(const BakedScene& scene, const TraceParams& params,
+                              const std::function<void(uint32_t)>& progress) {
+  const Oracle oracle(scene);
+  const double motion = kMotion * glm::length(dvec3(params.anchor_corner) - dvec3(params.eye));
+  return oracle_frame(
+      oracle, params.width, params.height,
+      [&](uint32_t x, uint32_t y) { return oracle_pixel_ray(params, x, y).ray; },
+      [&](const OracleRay&) { return motion; }, progress);
+}
+
+Frame frame_of(const OracleFrame& answers, const BakedScene& scene, const TraceParams& params) {
+  in_float::Kernel kernel{params,
+                          scene.triangles.data(),
+                          scene.cages.data(),
+                          scene.choice.surface,
+                          scene.choice.shell,
+                          SOLVER_ROBUST,
+                          true,
+                          false};
+  Frame frame;
+  frame.width = answers.width;
+  frame.height = answers.height;
+  frame.colors.resize(answers.pixels.size());
+  frame.aovs.resize(answers.pixels.size());
+  for (uint32_t y = 0; y < frame.height; ++y) {
+    for (uint32_t x = 0; x < frame.width; ++x) {
+      const std::size_t i = std::size_t{y} * frame.width + x;
+      const OracleAnswer& answer = answers.pixels[i];
+      const double anchor_distance = oracle_pixel_ray(params, x, y).anchor_distance;
+      in_float::Hit hit{};
+      hit.triangle = answer.hit ? answer.root.triangle : NO_TRIANGLE;
+      hit.z = static_cast<float>(anchor_distance + answer.root.t);
+      hit.weights = glm::vec3(answer.root.weights);
+      kernel.shade_pixel(kernel.pixel_ray({x, y}), hit, frame.colors[i], frame.aovs[i]);
+    }
+  }
+  return frame;
+}
+
+}  // namespace trisect

@@ -1,0 +1,33 @@
+// The oracle as a back end: the same rays as the kernels', in double precision.
+#pragma once
+
+#include <functional>
+
+#include "app/bake.h"
+#include "app/frame.h"
+#include "app/oracle.h"
+#include "app/shared.h"
+
+namespace trisect {
+
+// The ray through a pixel's centre, from the parameters' own numbers; t counts from the anchor, the
+// point of the ray near the scene's centre.
+struct OraclePixelRay {
+  OracleRay ray;
+  double anchor_distance;  // from the eye
+};
+OraclePixelRay oracle_pixel_ray(const TraceParams& params, uint32_t x, uint32_t y);
+
+// An answer is undecidable if it flips when the ray moves sideways by this part of the distance
+// from the eye to the anchor.
+constexpr double kMotion = 1e-7;
+
+// progress: as parallel_rows has it.
+OracleFrame trace_with_oracle(const BakedScene& scene, const TraceParams& params,
+                              const std::function<void(uint32_t)>& progress);
+
+// The answers as a frame, shaded as the robust solver's are, with AOVs; rounded to single
+// precision.
+Frame frame_of(const OracleFrame& answers, const BakedScene& scene, const TraceParams& params);
+
+}  // namespace trisect
