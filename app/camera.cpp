@@ -66,7 +66,8 @@ void set_rays(const Camera& camera, const dvec3& origin, double near, double far
   // The plane through the scene's origin, parallel to the near plane.
   const double depth = std::max(glm::dot(-eye, glm::normalize(forward)), near);
   const double scale = depth / near;
-  params.anchor_corner = vec4(glm::vec3(eye + corner * scale), static_cast<float>(scale));
+  const dvec3 middle = near_point(0.0, 0.0) * scale;
+  params.anchor = vec4(glm::vec3(eye + middle), static_cast<float>(glm::length(middle)));
   params.anchor_dx = vec4(glm::vec3(dx * scale), 0.0F);
   params.anchor_dy = vec4(glm::vec3(dy * scale), 0.0F);
 }

@@ -1,5 +1,7 @@
 #include "app/oracle_tracer.h"
 
+#include <cmath>
+
 #include "app/kernel_float.h"
 
 namespace trisect {
@@ -12,10 +14,12 @@ OraclePixelRay oracle_pixel_ray(const TraceParams& params, uint32_t x, uint32_t 
   const dvec3 to_near =
       dvec3(params.ray_corner) + dvec3(params.ray_dx) * px + dvec3(params.ray_dy) * py;
   const double near_distance = glm::length(to_near);
-  const double anchor_distance = near_distance * static_cast<double>(params.anchor_corner.w);
+  const dvec3 aside = dvec3(params.anchor_dx) * (px - 0.5 * params.width) +
+                      dvec3(params.anchor_dy) * (py - 0.5 * params.height);
+  const double anchor_distance =
+      std::hypot(static_cast<double>(params.anchor.w), glm::length(aside));
   OraclePixelRay pixel{{}, anchor_distance};
-  pixel.ray.origin =
-      dvec3(params.anchor_corner) + dvec3(params.anchor_dx) * px + dvec3(params.anchor_dy) * py;
+  pixel.ray.origin = dvec3(params.anchor) + aside;
   pixel.ray.direction = to_near / near_distance;
   pixel.ray.t_min = near_distance - anchor_distance;
   return pixel;
@@ -24,7 +28,7 @@ OraclePixelRay oracle_pixel_ray(const TraceParams& params, uint32_t x, uint32_t 
 OracleFrame trace_with_oracle(const BakedScene& scene, const TraceParams& params,
                               const std::function<void(uint32_t)>& progress) {
   const Oracle oracle(scene);
-  const double motion = kMotion * glm::length(dvec3(params.anchor_corner) - dvec3(params.eye));
+  const double motion = kMotion * static_cast<double>(params.anchor.w);
   return oracle_frame(
       oracle, params.width, params.height,
       [&](uint32_t x, uint32_t y) { return oracle_pixel_ray(params, x, y).ray; },

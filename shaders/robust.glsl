@@ -20,8 +20,10 @@ const uint FOUND_NOTHING = 2u;  // neither a root nor that there is none
 // Halvings from a cage to its smallest nodes.
 const int MOST_LEVELS = 9;
 // Nodes that one cage may cost a ray. Only cages that a ray follows along its length come near.
-const int MOST_NODES = 1024;
+const int MOST_NODES = 2048;
 const int MOST_STEPS = 10;
+// A node is searched with so much around it, in its own weights: no root is lost on the border of two nodes.
+const real OVERLAP = real(0.03125);
 
 // Orthonormal axes with z = view: Duff et al. 2017, "Building an orthonormal basis, revisited".
 RayFrame ray_frame(vec3 anchor, vec3 view) {
@@ -67,6 +69,13 @@ Contact contact(Shape shape, Triangle tri, FramedPatch framed, vec3 w) {
   return at;
 }
 
+Node widened(Node node) {
+  Node wide;
+  wide.origin = node.origin - vec3(OVERLAP * node.size);
+  wide.size = (real(1.0) + real(3.0) * OVERLAP) * node.size;
+  return wide;
+}
+
 vec3 weights_in(Node node, vec3 w) { return (w - node.origin) / node.size; }
 
 vec3 weights_of(Node node, vec3 l) { return node.origin + l * node.size; }
@@ -83,6 +92,12 @@ vec3 flat_guess(Net net) {
   vec3 l = max(vec3(real(1.0) - a - b, a, b), vec3(0.0));
   real sum = l.x + l.y + l.z;
   return sum > real(0.0) && sum < real(1e6) ? l / sum : vec3(real(1.0) / real(3.0));
+}
+
+// w drawn to the triangle.
+vec3 held_inside(vec3 w) {
+  vec3 inside = max(w, vec3(0.0));
+  return inside / (inside.x + inside.y + inside.z);
 }
 
 // Newton's method from the weights l within a node. If the node is `certified` to hold one root at most,
@@ -102,30 +117,35 @@ uint newton(Shape shape, Triangle tri, FramedPatch framed, Node node, Tangents t
     real slope = cross2(u, v);
     real du = -cross2(f, v) / slope;
     real dv = cross2(f, u) / slope;
-    vec3 target = weights_in(node, weights + vec3(-du - dv, du, dv));
     real step = max(abs(du), abs(dv));
     // A NaN ends here.
     if (!(step < real(1e6))) return FOUND_NOTHING;
-    if (least(target) >= real(-1e-6)) {
-      weights = weights + vec3(-du - dv, du, dv);
-      z = at.S.z + at.u.z * du + at.v.z * dv;
-      if (step <= small_step * abs(node.size)) return FOUND_ROOT;
-    } else {
-      vec3 inside = max(target, vec3(0.0));
-      vec3 held = weights_of(node, inside / (inside.x + inside.y + inside.z));
-      real hu = held.y - weights.y;
-      real hv = held.z - weights.z;
-      if (certified && excludes(t, det, stray, f, weights_in(node, weights), real(1e-5))) {
-        vec2 missed = f + u * hu + v * hv;
-        if (largest(missed) > real(4.0) * reach) return FOUND_NONE;
-      }
-      if (max(abs(hu), abs(hv)) <= small_step * abs(node.size)) {
-        z = at.S.z + at.u.z * hu + at.v.z * hv;
-        weights = held;
-        return largest(f + u * hu + v * hv) <= reach ? FOUND_ROOT : FOUND_NOTHING;
-      }
-      weights = held;
+    vec3 from = weights;
+    vec3 target = from + vec3(-du - dv, du, dv);
+    vec3 inside = weights_in(node, target);
+    // Where the ray grazes the surface the last digits of f move the step further than any bound on it.
+    bool exact = largest(f) <= real(0.5) * reach;
+    bool held = least(inside) < real(0.0) && !exact;
+    if (held) {
+      if (certified && excludes(t, det, stray, f, weights_in(node, from), real(1e-5))) return FOUND_NONE;
+      target = weights_of(node, held_inside(inside));
     }
+    weights = target;
+    real moved = max(abs(target.y - from.y), abs(target.z - from.z));
+    if (moved > small_step * abs(node.size) && !exact) continue;
+    // Of a node's border only what it shares with the patch's is of interest: beyond the rest of it lie other
+    // nodes, which overlap this one.
+    if (held) return FOUND_NOTHING;
+    real gu = du;
+    real gv = dv;
+    if (least(target) < real(0.0)) {
+      weights = held_inside(target);
+      gu = weights.y - from.y;
+      gv = weights.z - from.z;
+      if (largest(f + u * gu + v * gv) > reach) return FOUND_NONE;
+    }
+    z = at.S.z + at.u.z * gu + at.v.z * gv;
+    return FOUND_ROOT;
   }
   return FOUND_NOTHING;
 }
@@ -178,8 +198,9 @@ Fit cage_fit(Shape shape, Triangle tri, Cage cage, Node node, int level, INOUT(u
   real at2 = at0 + ev;
   fit.corner += vec3(at0, at1, at2);
   fit.edge += vec3(at0 + at1, at1 + at2, at0 + at2) * real(0.5);
-  // No point of a node is farther from its centre than sqrt(5) / 3 of its size, in the weights 1 and 2.
-  real away = real(0.7454) * abs(node.size);
+  // No point of a widened node is farther from its centre than this, in the weights 1 and 2: sqrt(5) / 3 of its
+  // size.
+  real away = real(0.7454) * (real(1.0) + real(3.0) * OVERLAP) * abs(node.size);
   fit.stray = min(fit.stray, real(0.5) * cage.bend * away * away);
   fit.tangent_stray = min(fit.tangent_stray, cage.bend * away * (real(1.0) + away));
   return fit;
@@ -201,11 +222,12 @@ void meet_part(Shape shape, Triangle tri, Cage cage, RayFrame frame, real neares
   uint path = 0u;
   for (int visits = 0; visits < MOST_NODES; ++visits) {
     Fit fit = cage_fit(shape, tri, cage, node, level, counts.evaluations);
-    Net net = cage_net(framed, fit.corner, fit.edge, node);
+    Node wide = widened(node);
+    Net net = cage_net(framed, fit.corner, fit.edge, wide);
     bool divide = false;
     if (near_ray(net, fit.stray + reach)) {
       Tangents t = tangents(net);
-      real stray = fit.tangent_stray * abs(node.size) / real(3.0);
+      real stray = fit.tangent_stray * abs(wide.size) / real(3.0);
       Range det = jacobian(t, stray);
       bool certified = det.low > real(0.0) || det.high < real(0.0);
       bool last = level == MOST_LEVELS;
@@ -215,7 +237,7 @@ void meet_part(Shape shape, Triangle tri, Cage cage, RayFrame frame, real neares
       for (int k = 0; k < starts; ++k) {
         real z;
         vec3 weights;
-        uint found = newton(shape, tri, framed, node, t, det, stray, certified, reach, start, z, weights,
+        uint found = newton(shape, tri, framed, wide, t, det, stray, certified, reach, start, z, weights,
                             counts.evaluations);
         if (found == FOUND_ROOT) keep_nearest(z, weights, cage.triangle, nearest, hit);
         divide = certified && found == FOUND_NOTHING && !last;

@@ -40,14 +40,15 @@ struct TraceParams {
   vec4 ray_corner;  // xyz
   vec4 ray_dx;      // xyz
   vec4 ray_dy;      // xyz
-  // The same rays where they pass the scene's centre (or the near plane, if that is farther):
-  // relative to the scene's origin, so that an eye far away costs no digits.
-  vec4 anchor_corner;  // xyz; w: distance of that plane over that of the near plane
-  vec4 anchor_dx;      // xyz
-  vec4 anchor_dy;      // xyz
-  vec4 light;          // xyz: unit vector toward the light
-  vec4 grid;           // xyz: origin of the shading grid; w: 1 / its cell size
-  uint width;          // image size in pixels
+  // The same rays where they pass the plane through the scene's centre (or the near plane, if that
+  // is farther): relative to the scene's origin and to the plane's point in the image's middle, so
+  // that an eye far away costs no digits.
+  vec4 anchor;     // xyz: that point; w: its distance from the eye
+  vec4 anchor_dx;  // xyz
+  vec4 anchor_dy;  // xyz
+  vec4 light;      // xyz: unit vector toward the light
+  vec4 grid;       // xyz: origin of the shading grid; w: 1 / its cell size
+  uint width;      // image size in pixels
   uint height;
   uint triangle_count;
   uint rank;         // bisection: rank - 1 halvings

@@ -9,7 +9,10 @@ struct PixelRay {
   vec3 anchor;
   real near_distance;    // from the eye
   real far_depth;        // from the near point; the robust solver needs no end
-  real anchor_distance;  // from the eye
+  // The anchor's distance from the eye in two parts, of the axis and what the ray has more: added last, they
+  // round once.
+  real axis;
+  real beyond_axis;
 };
 
 PixelRay pixel_ray(uvec2 pixel) {
@@ -21,8 +24,13 @@ PixelRay pixel_ray(uvec2 pixel) {
   ray.far_depth = ray.near_distance * (params.eye.w - real(1.0));
   ray.view = to_near / ray.near_distance;
   ray.near_point = vec3(params.eye) + to_near;
-  ray.anchor = vec3(params.anchor_corner) + vec3(params.anchor_dx) * x + vec3(params.anchor_dy) * y;
-  ray.anchor_distance = ray.near_distance * params.anchor_corner.w;
+  vec3 aside = vec3(params.anchor_dx) * (x - real(0.5) * real(params.width)) +
+               vec3(params.anchor_dy) * (y - real(0.5) * real(params.height));
+  ray.anchor = vec3(params.anchor) + aside;
+  real axis = params.anchor.w;
+  real square = dot3(aside, aside);
+  ray.axis = axis;
+  ray.beyond_axis = square / (axis + sqrt(axis * axis + square));
   return ray;
 }
 
@@ -64,7 +72,7 @@ void trace_bisect(PixelRay ray, INOUT(Hit) hit, INOUT(Counts) counts) {
 // Every part of every patch whose ball the ray meets. hit.z is the distance from the eye.
 void trace_robust(PixelRay ray, INOUT(Hit) hit, INOUT(Counts) counts) {
   RayFrame frame = ray_frame(ray.anchor, ray.view);
-  real nearest = ray.near_distance - ray.anchor_distance;
+  real nearest = ray.near_distance - (ray.axis + ray.beyond_axis);
   hit.z = real(1e30);
   for (uint c = 0u; c < params.cage_count; ++c) {
     vec4 ball = cages[c].ball;
@@ -77,7 +85,7 @@ void trace_robust(PixelRay ray, INOUT(Hit) hit, INOUT(Counts) counts) {
     if (COUNTS) ++counts.candidates;
     meet_part(scene_shape(), triangles[cages[c].triangle], cages[c], frame, nearest, hit, counts);
   }
-  hit.z = ray.anchor_distance + hit.z;
+  hit.z = ray.axis + (ray.beyond_axis + hit.z);
 }
 
 void trace_ray(PixelRay ray, OUT(Hit) hit, OUT(Counts) counts) {
@@ -100,7 +108,8 @@ CastHit cast_ray(CastRay asked) {
   ray.anchor = vec3(asked.anchor);
   ray.near_distance = asked.anchor.w;
   ray.far_depth = real(1e30);
-  ray.anchor_distance = real(0.0);
+  ray.axis = real(0.0);
+  ray.beyond_axis = real(0.0);
   Hit hit;
   Counts counts;
   trace_ray(ray, hit, counts);
@@ -128,7 +137,7 @@ void shade_pixel(PixelRay ray, Hit hit, OUT(vec4) color, OUT(PixelAovs) aovs) {
   color = vec4(sky(ray.view), 0.0);
   if (hit.triangle == NO_TRIANGLE) return;
   vec3 normal = vertex_normal(triangles[hit.triangle], hit.weights);
-  vec3 point = ray.anchor + ray.view * (hit.z - ray.anchor_distance);
+  vec3 point = ray.anchor + ray.view * (hit.z - (ray.axis + ray.beyond_axis));
   // The thesis sees front faces only; the robust solver sees both, and lights the one it sees.
   vec3 lit = SOLVER == SOLVER_ROBUST && dot3(normal, ray.view) > real(0.0) ? -normal : normal;
   color = vec4(shade(lit, point, vec3(params.light), params.grid), 1.0);

@@ -92,7 +92,7 @@ TEST(Layout, TraceParams) {
                                    {"ray_corner", offsetof(TraceParams, ray_corner)},
                                    {"ray_dx", offsetof(TraceParams, ray_dx)},
                                    {"ray_dy", offsetof(TraceParams, ray_dy)},
-                                   {"anchor_corner", offsetof(TraceParams, anchor_corner)},
+                                   {"anchor", offsetof(TraceParams, anchor)},
                                    {"anchor_dx", offsetof(TraceParams, anchor_dx)},
                                    {"anchor_dy", offsetof(TraceParams, anchor_dy)},
                                    {"light", offsetof(TraceParams, light)},
