@@ -18,7 +18,7 @@ using glm::dvec3;
 // times.
 constexpr double kClose = 0.02;
 constexpr double kTangentsClose = 0.25;
-constexpr int kMostLevels = 4;
+constexpr int kMostLevels = 6;
 
 // sigma is sampled at the weights with this denominator; between the samples it may stray further
 // by this factor.
@@ -209,7 +209,8 @@ Ball part_ball(const Patch& patch, const Part& part, const Fit& fit) {
 
 Cage cage_of(const Patch& patch, const Part& part, const Fit& fit, uint32_t triangle) {
   Cage cage{};
-  if (part.size == 1.0) {
+  // Where the quadratic is no bound at all the whole patch's ball is one.
+  if (part.size == 1.0 || !(fit.stray < patch.tri.Domain.w)) {
     cage.ball = vec4(patch.tri.Domain);
   } else {
     const Ball ball = part_ball(patch, part, fit);
@@ -236,14 +237,22 @@ void cage_part(const Patch& patch, const Part& part, int level, uint32_t triangl
     cages.push_back(cage_of(patch, part, found, triangle));
     return;
   }
+  const std::size_t group = cages.size();
+  cages.push_back(cage_of(patch, part, found, triangle));
   const double half = part.size * 0.5;
   for (int k = 0; k < 3; ++k) {
     cage_part(patch, {part.origin + corner(k) * half, half}, level + 1, triangle, cages);
   }
   cage_part(patch, {part.origin + dvec3(half), -half}, level + 1, triangle, cages);
+  cages[group].skip = static_cast<uint32_t>(cages.size() - group - 1);
 }
 
 }  // namespace
+
+bool has_groups(const BakedScene& scene) {
+  return std::any_of(scene.cages.begin(), scene.cages.end(),
+                     [](const Cage& cage) { return cage.skip > 0; });
+}
 
 std::vector<Cage> bake_cages(const BakedScene& scene) {
   std::vector<Cage> cages;

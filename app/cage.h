@@ -13,4 +13,7 @@ namespace trisect {
 // in the order of the scene's triangles.
 std::vector<Cage> bake_cages(const BakedScene& scene);
 
+// Whether some patch has several.
+bool has_groups(const BakedScene& scene);
+
 }  // namespace trisect

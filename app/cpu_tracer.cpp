@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/cage.h"
 #include "app/kernel_float.h"
 #include "app/parallel_rows.h"
 
@@ -22,7 +23,8 @@ void trace_on_cpu(const BakedScene& scene, const TraceParams& params, const Kern
                             scene.choice.shell,
                             choice.solver,
                             choice.aovs,
-                            choice.counts};
+                            choice.counts,
+                            has_groups(scene)};
     for (uint32_t x = 0; x < params.width; ++x) {
       const std::size_t pixel = std::size_t{y} * params.width + x;
       PixelAovs aovs{};
@@ -45,7 +47,8 @@ std::vector<CastHit> cast_on_cpu(const BakedScene& scene, const TraceParams& par
                             scene.choice.shell,
                             solver,
                             false,
-                            true};
+                            true,
+                            has_groups(scene)};
     const std::size_t first = y * batch;
     const std::size_t end = std::min(first + batch, rays.size());
     for (std::size_t i = first; i < end; ++i) hits[i] = kernel.cast_ray(rays[i]);

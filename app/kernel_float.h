@@ -25,7 +25,10 @@ struct Kernel {
   uint SOLVER;
   bool AOVS;
   bool COUNTS;
+  bool GROUPS;
 
+#include "shaders/polar_angle.glsl"
+// Vectors need the angle.
 #include "shaders/linear.glsl"
 #include "shaders/surface.glsl"
 #include "shaders/thesis_field.glsl"

@@ -43,6 +43,7 @@ Frame frame_of(const OracleFrame& answers, const BakedScene& scene, const TraceP
                           scene.choice.shell,
                           SOLVER_ROBUST,
                           true,
+                          false,
                           false};
   Frame frame;
   frame.width = answers.width;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/cage.h"
 #include "app/kernels.h"
 #include "app/submit_budget.h"
 
@@ -24,7 +25,8 @@ RayCaster::RayCaster(const gpu::Device& device, const BakedScene& scene, const T
     : kernel_(device, kCastRaysSpirv, cast_rays_interface(),
               {{CONSTANT_SURFACE, scene.choice.surface},
                {CONSTANT_SHELL, scene.choice.shell},
-               {CONSTANT_SOLVER, solver}},
+               {CONSTANT_SOLVER, solver},
+               {CONSTANT_GROUPS, has_groups(scene) ? 1U : 0U}},
               "cast_rays"),
       commands_(device),
       staging_(device, kStagingBytes),

@@ -2,6 +2,7 @@
 // second time.
 #pragma once
 
+#include <cmath>
 #include <glm/glm.hpp>
 
 namespace trisect::in_double {
@@ -22,6 +23,10 @@ using vec4 = glm::dvec4;
 #pragma GCC diagnostic ignored "-Wfloat-equal"
 #include "shaders/shape.glsl"
 namespace {
+// shaders/polar_angle.glsl is of single precision.
+inline double polar_angle(double sine, double cosine) {
+  return std::atan2(sine, cosine);
+}
 #include "shaders/linear.glsl"
 #include "shaders/surface.glsl"
 #include "shaders/thesis_field.glsl"

@@ -7,6 +7,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "app/cage.h"
 #include "app/kernels.h"
 #include "vk/result.h"
 
@@ -72,7 +73,8 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
                {CONSTANT_SHELL, scene.choice.shell},
                {CONSTANT_SOLVER, choice.solver},
                {CONSTANT_AOVS, choice.aovs ? 1U : 0U},
-               {CONSTANT_COUNTS, choice.counts ? 1U : 0U}},
+               {CONSTANT_COUNTS, choice.counts ? 1U : 0U},
+               {CONSTANT_GROUPS, has_groups(scene) ? 1U : 0U}},
               "trace_list"),
       commands_(device),
       staging_(device, kStagingBytes),

@@ -9,6 +9,7 @@ layout(local_size_x = CAST_SIZE) in;
 
 layout(constant_id = CONSTANT_SURFACE) const uint SURFACE = SURFACE_PHONG;
 layout(constant_id = CONSTANT_SHELL) const uint SHELL = SHELL_NORMAL;
+layout(constant_id = CONSTANT_GROUPS) const bool GROUPS = false;
 layout(constant_id = CONSTANT_SOLVER) const uint SOLVER = SOLVER_ROBUST;
 const bool AOVS = false;
 const bool COUNTS = true;

@@ -20,5 +20,5 @@ vec3 weigh(vec3 w, vec3 a, vec3 b, vec3 c) { return a * w.x + b * w.y + c * w.z;
 real AngleBetween(vec3 a, vec3 b) {
   real sine = length3(cross3(a, b));
   real cosine = dot3(a, b);
-  return sine == real(0.0) && cosine == real(0.0) ? real(0.0) : atan(sine, cosine);
+  return sine == real(0.0) && cosine == real(0.0) ? real(0.0) : polar_angle(sine, cosine);
 }

@@ -20,7 +20,7 @@ const uint FOUND_NOTHING = 2u;  // neither a root nor that there is none
 // Halvings from a cage to its smallest nodes.
 const int MOST_LEVELS = 9;
 // Nodes that one cage may cost a ray. Only cages that a ray follows along its length come near.
-const int MOST_NODES = 2048;
+const int MOST_NODES = 16384;
 const int MOST_STEPS = 10;
 // A node is searched with so much around it, in its own weights: no root is lost on the border of two nodes.
 const real OVERLAP = real(0.03125);

@@ -29,7 +29,8 @@ struct Cage {
   uint triangle;
   uint flat_part;  // 1: sigma is 0
   float bend;  // Lipschitz constant of the gradient of sigma - q in the weights 1 and 2, times |D|
-  uint padding0;
+  uint skip;   // a group: how many cages follow that lie within its ball, and it has no part of its
+               // own
 };
 
 // One frame's constants. Rays leave the eye; near(x, y) = eye + ray_corner + x ray_dx + y ray_dy is
@@ -135,3 +136,4 @@ const uint SOLVER_ROBUST = 1u;
 #define CONSTANT_SHELL 2
 #define CONSTANT_SOLVER 3
 #define CONSTANT_COUNTS 4
+#define CONSTANT_GROUPS 5

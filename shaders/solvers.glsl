@@ -1,6 +1,7 @@
 // All that a kernel needs before its buffers and constants.
 #include "shape.glsl"
 #include "solver_types.glsl"
+#include "polar_angle.glsl"
 #include "linear.glsl"
 #include "surface.glsl"
 #include "thesis_field.glsl"

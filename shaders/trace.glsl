@@ -1,5 +1,5 @@
 // One pixel: the rays, the list of all triangles, the outputs. Reads params, triangles and cages; SURFACE, SHELL,
-// SOLVER, AOVS and COUNTS are constants.
+// SOLVER, AOVS, COUNTS and GROUPS are constants.
 
 // A pixel's ray. Distances along it count from its near point for the bisection, as in the thesis, and from
 // its anchor, a point near the scene's centre, for the robust solver.
@@ -69,19 +69,24 @@ void trace_bisect(PixelRay ray, INOUT(Hit) hit, INOUT(Counts) counts) {
   }
 }
 
-// Every part of every patch whose ball the ray meets. hit.z is the distance from the eye.
+// Every part of every patch whose ball the ray meets; of a divided patch the parts stand in a tree, depth first. hit.z is the distance from the eye.
 void trace_robust(PixelRay ray, INOUT(Hit) hit, INOUT(Counts) counts) {
   RayFrame frame = ray_frame(ray.anchor, ray.view);
   real nearest = ray.near_distance - (ray.axis + ray.beyond_axis);
   hit.z = real(1e30);
-  for (uint c = 0u; c < params.cage_count; ++c) {
+  for (uint c = 0u, next = 0u; c < params.cage_count; c = next) {
+    next = c + 1u;
     vec4 ball = cages[c].ball;
     vec3 center = vec3(ball) - ray.anchor;
     real z = dot3(center, ray.view);
     real size = dot3(center, center);
     // The distance of the centre from the ray against the radius; the roundings of `size` may add to it.
-    if (size - z * z > ball.w * ball.w + real(5e-7) * size) continue;
-    if (z + ball.w < nearest || z - ball.w > hit.z) continue;
+    if (size - z * z > ball.w * ball.w + real(5e-7) * size || z + ball.w < nearest || z - ball.w > hit.z) {
+      // Without groups all lanes stay at the same cage.
+      if (GROUPS) next += cages[c].skip;
+      continue;
+    }
+    if (GROUPS && cages[c].skip > 0u) continue;
     if (COUNTS) ++counts.candidates;
     meet_part(scene_shape(), triangles[cages[c].triangle], cages[c], frame, nearest, hit, counts);
   }

@@ -9,6 +9,7 @@ layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 
 layout(constant_id = CONSTANT_SURFACE) const uint SURFACE = SURFACE_PHONG;
 layout(constant_id = CONSTANT_SHELL) const uint SHELL = SHELL_NORMAL;
+layout(constant_id = CONSTANT_GROUPS) const bool GROUPS = false;
 layout(constant_id = CONSTANT_SOLVER) const uint SOLVER = SOLVER_ROBUST;
 layout(constant_id = CONSTANT_AOVS) const bool AOVS = false;
 layout(constant_id = CONSTANT_COUNTS) const bool COUNTS = false;

@@ -79,7 +79,7 @@ TEST(Layout, Cage) {
                                    {"triangle", offsetof(Cage, triangle)},
                                    {"flat_part", offsetof(Cage, flat_part)},
                                    {"bend", offsetof(Cage, bend)},
-                                   {"padding0", offsetof(Cage, padding0)}}));
+                                   {"skip", offsetof(Cage, skip)}}));
 }
 
 TEST(Layout, TraceParams) {
@@ -157,7 +157,8 @@ TEST(Layout, InterfaceIsTheKernels) {
                                                         {CONSTANT_AOVS, "AOVS"},
                                                         {CONSTANT_SHELL, "SHELL"},
                                                         {CONSTANT_SOLVER, "SOLVER"},
-                                                        {CONSTANT_COUNTS, "COUNTS"}}));
+                                                        {CONSTANT_COUNTS, "COUNTS"},
+                                                        {CONSTANT_GROUPS, "GROUPS"}}));
 }
 
 }  // namespace
