@@ -17,7 +17,7 @@ using glm::dvec3;
 // triangle, and its tangents S's to this part of it; else the part is divided, at most so many
 // times.
 constexpr double kClose = 0.02;
-constexpr double kTangentsClose = 0.25;
+constexpr double kTangentsClose = 0.1;
 constexpr int kMostLevels = 6;
 
 // sigma is sampled at the weights with this denominator; between the samples it may stray further

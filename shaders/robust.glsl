@@ -104,8 +104,6 @@ vec3 held_inside(vec3 w) {
 // FOUND_NONE is a proof. On a root: its place along the ray, and its weights.
 uint newton(Shape shape, Triangle tri, FramedPatch framed, Node node, Tangents t, Range det, real stray,
             bool certified, real reach, vec3 l, OUT(real) z, OUT(vec3) weights, INOUT(uint) evaluations) {
-  // Steps this small leave an error of their square.
-  const real small_step = real(1e-4);
   z = real(0.0);
   weights = weights_of(node, l);
   for (int i = 0; i < MOST_STEPS; ++i) {
@@ -131,6 +129,9 @@ uint newton(Shape shape, Triangle tri, FramedPatch framed, Node node, Tangents t
       target = weights_of(node, held_inside(inside));
     }
     weights = target;
+    // Steps this small leave an error of their square; from outside the patch, where the sphere surface's tangents
+    // may jump, of their size.
+    real small_step = least(from) < real(0.0) ? real(1e-6) : real(1e-4);
     real moved = max(abs(target.y - from.y), abs(target.z - from.z));
     if (moved > small_step * abs(node.size) && !exact) continue;
     // Of a node's border only what it shares with the patch's is of interest: beyond the rest of it lie other

@@ -74,7 +74,7 @@ real sphere_root(vec3 x0, vec3 dir, vec3 N, real c) {
 // the curvatures toward its neighbours a and b (a the lower-numbered one).
 real blended_curvature(vec3 T, vec3 vertex, vec3 b, vec4 data) {
   real beta = clamp(AngleBetween(T - vertex, b - vertex) / data.z, real(0.0), real(1.0));
-  return data.x * beta + data.y * (real(1.0) - beta);
+  return data.y + beta * (data.x - data.y);
 }
 
 // s_i of the sphere surface: displacement toward the sphere of vertex i, in units of D. The farthest that a
