@@ -8,6 +8,9 @@ namespace trisect {
 // Renders the model to the output file and prints the figures; returns an exit code.
 int render(const RenderOptions& options);
 
+// Measures the solvers on the catalogue of hard cases and prints the table; returns an exit code.
+int hardcases(const HardcasesOptions& options);
+
 // Lists the Vulkan devices; returns an exit code.
 int list_devices();
 

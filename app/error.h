@@ -8,6 +8,7 @@ namespace trisect {
 enum ExitCode : int {
   exit_done = 0,
   exit_different = 1,
+  exit_failed_check = 1,  // of what the program was asked to measure
   exit_usage = 2,
   exit_bad_input = 3,
   exit_no_device = 4,

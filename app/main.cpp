@@ -150,6 +150,23 @@ void add_render(CLI::App& app, RenderOptions& options, RenderText& text) {
       ->type_name("FILE.json");
 }
 
+void add_hardcases(CLI::App& app, HardcasesOptions& options, std::string& backend) {
+  CLI::App* hardcases =
+      app.add_subcommand("hardcases", "Measure the solvers on a catalogue of hard cases");
+  hardcases->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  hardcases->add_option("--json", options.json, "Write the table as JSON")
+      ->check(not_empty())
+      ->type_name("FILE");
+  hardcases->add_option("--backend", backend, "Who traces: vulkan or cpu, default vulkan")
+      ->check(one_of({"vulkan", "cpu"}))
+      ->type_name("NAME");
+  hardcases
+      ->add_option("--device", options.device,
+                   "Vulkan device: its number in `trisect devices` or a part of its name")
+      ->check(not_empty())
+      ->type_name("D");
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Ray-traces triangle models as smooth curved surfaces, in a Vulkan compute shader.",
                "trisect");
@@ -158,9 +175,13 @@ int run(int argc, char** argv) {
   RenderOptions options;
   RenderText text;
   add_render(app, options, text);
+  HardcasesOptions hardcases_options;
+  std::string hardcases_backend;
+  add_hardcases(app, hardcases_options, hardcases_backend);
   app.add_subcommand("devices", "List the Vulkan devices, and what those that cannot be used lack");
   app.footer(
-      "Exit codes: 0 done, 2 usage, 3 bad input, 4 no usable device, 70 internal error, "
+      "Exit codes: 0 done, 1 a hard case failed, 2 usage, 3 bad input, 4 no usable device, 70 "
+      "internal error, "
       "130 interrupted.");
   const auto is_named = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(is_named).empty()) {
@@ -173,6 +194,10 @@ int run(int argc, char** argv) {
     return fail(exit_usage, std::string(error.what()) + " (see trisect --help)");
   }
   if (app.got_subcommand("devices")) return list_devices();
+  if (app.got_subcommand("hardcases")) {
+    if (hardcases_backend == "cpu") hardcases_options.backend = Backend::cpu;
+    return hardcases(hardcases_options);
+  }
   if (text.surface == "flat") options.surface = SURFACE_FLAT;
   if (text.surface == "sphere") options.surface = SURFACE_SPHERE;
   if (text.backend == "cpu") options.backend = Backend::cpu;
