@@ -74,6 +74,9 @@ Prepared prepare(const RayCase& hard, uint surface, uint shell) {
   prepared.params = make_params(prepared.scene, settings);
   std::mt19937_64 random(7);
   prepared.rays = hard.rays(prepared.scene, random);
+  std::shuffle(prepared.rays.begin(), prepared.rays.end(), random);
+  prepared.rays.resize(std::min(
+      prepared.rays.size(), surface == SURFACE_SPHERE ? hard.most_sphere_rays : hard.most_rays));
   prepared.answers = oracle_answers(Oracle(prepared.scene), prepared.rays, prepared.scene.radius);
   return prepared;
 }
@@ -87,7 +90,6 @@ HardRow row_of(const RayCase& hard, const Prepared& prepared, uint solver,
       solver == SOLVER_BISECT ? cast_from_start(backend, scene, prepared.params, prepared.rays)
                               : backend.cast(scene, prepared.params, solver, prepared.rays);
   row.outcome = judge(prepared.rays, hits, prepared.answers, scene.radius);
-  row.outcome.note = hard.note;
   const bool cracks = hard.closed && cracks_seen(prepared.rays, prepared.answers) > 0;
   row.verdict = verdict_of(row, cracks);
   return row;
@@ -182,10 +184,18 @@ std::vector<HardRow> run_rows(const RayCase& hard, uint surface, const HardBacke
     rows.push_back(row_of(hard, normal, SOLVER_BISECT, backend));
     return rows;
   }
+  if (surface == SURFACE_SPHERE && !hard.sphere_in_height) {
+    rows.back().outcome.note = "no height shell: the oracle takes minutes";
+    return rows;
+  }
   const Prepared height = prepare(hard, surface, SHELL_HEIGHT);
   rows.push_back(row_of(hard, height, SOLVER_ROBUST, backend));
   rows.push_back(row_of(hard, height, SOLVER_BISECT, backend));
   return rows;
+}
+
+HardRow run_robust_row(const RayCase& hard, uint surface, const HardBackend& backend) {
+  return row_of(hard, prepare(hard, surface, SHELL_NORMAL), SOLVER_ROBUST, backend);
 }
 
 HardRow run_row(const CheckedCase& hard, const HardBackend& backend) {

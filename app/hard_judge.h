@@ -55,6 +55,8 @@ std::string verdict_of(const HardRow& row, bool cracks);
 // Runs one case on one surface: robust in the normal shell, robust and bisect in the height shell
 // (for flat, where shells are the same, robust and bisect).
 std::vector<HardRow> run_rows(const RayCase& hard, uint surface, const HardBackend& backend);
+// The first of these alone.
+HardRow run_robust_row(const RayCase& hard, uint surface, const HardBackend& backend);
 HardRow run_row(const CheckedCase& hard, const HardBackend& backend);
 
 }  // namespace trisect
