@@ -221,8 +221,12 @@ Cage cage_of(const Patch& patch, const Part& part, const Fit& fit, uint32_t tria
   cage.edge = vec4(glm::vec3(fit.q.edge), rounded_up(fit.tangent_stray));
   cage.triangle = triangle;
   cage.bend = fit.bend > 0.0 ? rounded_up(fit.bend) : 0.0F;
-  const bool no_displacement =
-      fit.q.corner == dvec3(0.0) && fit.q.edge == dvec3(0.0) && fit.stray == 0.0;
+  // Less than the roundings of a position.
+  constexpr double nothing = 1e-9;
+  const dvec3 most = glm::max(glm::abs(fit.q.corner), glm::abs(fit.q.edge));
+  const double displacement =
+      std::max({most.x, most.y, most.z}) * longest_direction(patch) + fit.stray;
+  const bool no_displacement = displacement <= nothing * patch.tri.TriNormal.w;
   cage.flat_part = no_displacement ? 1 : 0;
   return cage;
 }

@@ -35,7 +35,7 @@ Camera framing_camera(std::span<const dvec3> vertices, const dvec3& center, doub
   return {center + backward * distance, center, up, fov};
 }
 
-void set_rays(const Camera& camera, const dvec3& origin, double near, double far,
+void set_rays(const Camera& camera, const dvec3& origin, double radius, double near, double far,
               TraceParams& params) {
   const dvec3 forward = camera.target - camera.eye;
   const double sine =
@@ -63,8 +63,13 @@ void set_rays(const Camera& camera, const dvec3& origin, double near, double far
   params.ray_corner = vec4(glm::vec3(corner), 0.0F);
   params.ray_dx = vec4(glm::vec3(dx), 0.0F);
   params.ray_dy = vec4(glm::vec3(dy), 0.0F);
-  // The plane through the scene's origin, parallel to the near plane.
-  const double depth = std::max(glm::dot(-eye, glm::normalize(forward)), near);
+  // The plane through the scene's origin, parallel to the near plane; from close by, where it is
+  // met far away by rays that meet the model at their beginning, a nearer one.
+  double depth = std::max(glm::dot(-eye, glm::normalize(forward)), near);
+  if (glm::length(eye) < 2.0 * radius) {
+    const double corner_slope = glm::length(corner - near_point(0.0, 0.0)) / near;
+    depth = std::clamp(2.0 * radius / corner_slope, near, depth);
+  }
   const double scale = depth / near;
   const dvec3 middle = near_point(0.0, 0.0) * scale;
   params.anchor = vec4(glm::vec3(eye + middle), static_cast<float>(glm::length(middle)));

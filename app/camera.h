@@ -22,11 +22,11 @@ Camera framing_camera(std::span<const glm::dvec3> vertices, const glm::dvec3& ce
                       const glm::dvec3& up, double aspect);
 
 // Fills in the rays of `params` for an image of params.width by params.height pixels, relative to
-// the scene origin, between a near and a far plane at these distances in front of the eye.
-// Unprojects the corners of the clip volume by the double-precision inverse of the view-projection
-// matrix, as the thesis does; through them every pixel's near point is linear in its position.
-// Throws UsageError if the camera looks along its up vector or nowhere.
-void set_rays(const Camera& camera, const glm::dvec3& origin, double near, double far,
-              TraceParams& params);
+// the scene origin, of a scene with this radius, between a near and a far plane at these distances
+// in front of the eye. Unprojects the corners of the clip volume by the double-precision inverse of
+// the view-projection matrix, as the thesis does; through them every pixel's near point is linear
+// in its position. Throws UsageError if the camera looks along its up vector or nowhere.
+void set_rays(const Camera& camera, const glm::dvec3& origin, double radius, double near,
+              double far, TraceParams& params);
 
 }  // namespace trisect

@@ -12,6 +12,9 @@ int render(const RenderOptions& options);
 // does not keep its promises.
 int accuracy(const AccuracyOptions& options);
 
+// Measures the solvers on the catalogue of hard cases and prints the table; returns an exit code.
+int hardcases(const HardcasesOptions& options);
+
 // Lists the Vulkan devices; returns an exit code.
 int list_devices();
 

@@ -7,7 +7,7 @@ namespace trisect {
 
 enum ExitCode : int {
   exit_done = 0,
-  exit_different = 1,
+  exit_different = 1,  // from what was promised
   exit_usage = 2,
   exit_bad_input = 3,
   exit_no_device = 4,

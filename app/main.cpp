@@ -198,6 +198,23 @@ int run_accuracy(AccuracyOptions options, const AccuracyText& text) {
   return accuracy(options);
 }
 
+void add_hardcases(CLI::App& app, HardcasesOptions& options, std::string& backend) {
+  CLI::App* hardcases =
+      app.add_subcommand("hardcases", "Measure the solvers on a catalogue of hard cases");
+  hardcases->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  hardcases->add_option("--json", options.json, "Write the table as JSON")
+      ->check(not_empty())
+      ->type_name("FILE");
+  hardcases->add_option("--backend", backend, "Who traces: vulkan or cpu, default vulkan")
+      ->check(one_of({"vulkan", "cpu"}))
+      ->type_name("NAME");
+  hardcases
+      ->add_option("--device", options.device,
+                   "Vulkan device: its number in `trisect devices` or a part of its name")
+      ->check(not_empty())
+      ->type_name("D");
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Ray-traces triangle models as smooth curved surfaces, in a Vulkan compute shader.",
                "trisect");
@@ -209,6 +226,9 @@ int run(int argc, char** argv) {
   AccuracyOptions accuracy_options;
   AccuracyText accuracy_text;
   add_accuracy(app, accuracy_options, accuracy_text);
+  HardcasesOptions hardcases_options;
+  std::string hardcases_backend;
+  add_hardcases(app, hardcases_options, hardcases_backend);
   app.add_subcommand("devices", "List the Vulkan devices, and what those that cannot be used lack");
   app.footer(
       "Exit codes: 0 done, 1 a promise of accuracy not kept, 2 usage, 3 bad input, 4 no usable "
@@ -226,6 +246,10 @@ int run(int argc, char** argv) {
   }
   if (app.got_subcommand("devices")) return list_devices();
   if (app.got_subcommand("accuracy")) return run_accuracy(accuracy_options, accuracy_text);
+  if (app.got_subcommand("hardcases")) {
+    if (hardcases_backend == "cpu") hardcases_options.backend = Backend::cpu;
+    return hardcases(hardcases_options);
+  }
   if (!text.surface.empty()) options.surface = surface_of(text.surface);
   if (text.backend == "cpu") options.backend = Backend::cpu;
   if (text.backend == "oracle") options.backend = Backend::oracle;

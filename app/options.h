@@ -47,6 +47,12 @@ struct AccuracyOptions {
   std::string json;
 };
 
+struct HardcasesOptions {
+  std::string json;
+  Backend backend = Backend::vulkan;
+  std::string device;
+};
+
 // The names that the command line and the JSON use.
 const char* surface_name(uint surface);
 const char* shell_name(uint shell);

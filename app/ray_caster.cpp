@@ -1,9 +1,11 @@
 #include "app/ray_caster.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "app/cage.h"
 #include "app/kernels.h"
+#include "app/loop_limit.h"
 #include "app/submit_budget.h"
 
 namespace trisect {
@@ -22,12 +24,26 @@ std::size_t bytes_for(const std::vector<T>& items) {
 
 RayCaster::RayCaster(const gpu::Device& device, const BakedScene& scene, const TraceParams& params,
                      uint solver)
-    : kernel_(device, kCastRaysSpirv, cast_rays_interface(),
-              {{CONSTANT_SURFACE, scene.choice.surface},
-               {CONSTANT_SHELL, scene.choice.shell},
-               {CONSTANT_SOLVER, solver},
-               {CONSTANT_GROUPS, has_groups(scene) ? 1U : 0U}},
-              "cast_rays"),
+    : RayCaster(device, scene, params,
+                kernel_for(device, scene.choice, solver, has_groups(scene))) {
+  expect_loops_to_end(device, scene, solver);
+}
+
+std::shared_ptr<const gpu::Kernel> RayCaster::kernel_for(const gpu::Device& device,
+                                                         const SurfaceChoice& choice, uint solver,
+                                                         bool groups) {
+  return std::make_shared<const gpu::Kernel>(
+      device, kCastRaysSpirv, cast_rays_interface(),
+      std::vector<gpu::Specialization>{{CONSTANT_SURFACE, choice.surface},
+                                       {CONSTANT_SHELL, choice.shell},
+                                       {CONSTANT_SOLVER, solver},
+                                       {CONSTANT_GROUPS, groups ? 1U : 0U}},
+      "cast_rays");
+}
+
+RayCaster::RayCaster(const gpu::Device& device, const BakedScene& scene, const TraceParams& params,
+                     std::shared_ptr<const gpu::Kernel> kernel)
+    : kernel_(std::move(kernel)),
       commands_(device),
       staging_(device, kStagingBytes),
       params_(device, sizeof(TraceParams), gpu::Memory::device, "trace parameters"),
@@ -35,7 +51,7 @@ RayCaster::RayCaster(const gpu::Device& device, const BakedScene& scene, const T
       cages_(device, bytes_for(scene.cages), gpu::Memory::device, "cages"),
       rays_(device, kBatch * sizeof(CastRay), gpu::Memory::device, "rays"),
       hits_(device, kBatch * sizeof(CastHit), gpu::Memory::device, "hits"),
-      bound_(device, kernel_, {&params_, &triangles_, &cages_, &rays_, &hits_}) {
+      bound_(device, *kernel_, {&params_, &triangles_, &cages_, &rays_, &hits_}) {
   staging_.upload(commands_, std::as_bytes(std::span(&params, 1)), params_);
   staging_.upload(commands_, std::as_bytes(std::span(scene.triangles)), triangles_);
   if (!scene.cages.empty()) {
@@ -55,7 +71,7 @@ std::vector<CastHit> RayCaster::cast(std::span<const CastRay> rays,
           std::min<std::size_t>(budget.groups(), (count - done + CAST_SIZE - 1) / CAST_SIZE));
       const CastPush push{static_cast<uint>(done), static_cast<uint>(count)};
       commands_.begin();
-      commands_.dispatch(kernel_, bound_, std::as_bytes(std::span(&push, 1)), groups);
+      commands_.dispatch(*kernel_, bound_, std::as_bytes(std::span(&push, 1)), groups);
       budget.record(groups, commands_.submit_and_wait());
       done += std::size_t{groups} * CAST_SIZE;
       if (progress) progress(first + std::min(done, count));

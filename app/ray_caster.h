@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -19,13 +20,22 @@ class RayCaster {
   RayCaster(const gpu::Device& device, const BakedScene& scene, const TraceParams& params,
             uint solver);
 
+  // The same with a kernel of kernel_for(device, scene.choice, solver, groups), groups
+  // true if has_groups(scene): compiled once, it serves
+  // many scenes.
+  RayCaster(const gpu::Device& device, const BakedScene& scene, const TraceParams& params,
+            std::shared_ptr<const gpu::Kernel> kernel);
+  static std::shared_ptr<const gpu::Kernel> kernel_for(const gpu::Device& device,
+                                                       const SurfaceChoice& choice, uint solver,
+                                                       bool groups);
+
   // One hit for each ray. progress, if set, is told how many rays are done, between submits; what
   // it throws stops the cast.
   std::vector<CastHit> cast(std::span<const CastRay> rays,
                             const std::function<void(std::size_t)>& progress = {});
 
  private:
-  gpu::Kernel kernel_;
+  std::shared_ptr<const gpu::Kernel> kernel_;
   gpu::Commands commands_;
   gpu::Staging staging_;
   gpu::Buffer params_;

@@ -20,7 +20,7 @@ TraceParams make_params(const BakedScene& scene, const TraceSettings& settings) 
   // Nothing nearer than a thousandth of the scene's size, nothing beyond the scene.
   const double near = scene.radius * 1e-3;
   const double far = glm::distance(settings.camera.eye, scene.origin) + scene.radius + near;
-  set_rays(settings.camera, scene.origin, near, far, params);
+  set_rays(settings.camera, scene.origin, scene.radius, near, far, params);
   return params;
 }
 

@@ -9,6 +9,7 @@
 
 #include "app/cage.h"
 #include "app/kernels.h"
+#include "app/loop_limit.h"
 #include "vk/result.h"
 
 namespace trisect {
@@ -90,6 +91,7 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
           choice.aovs ? std::size_t{width} * band_rows_ * sizeof(PixelAovs) : sizeof(PixelAovs),
           gpu::Memory::device, "AOVs"),
       bound_(device, kernel_, {&params_, &triangles_, &colors_, &aovs_buffer_, &cages_}) {
+  expect_loops_to_end(device, scene, choice.solver);
   const auto start = std::chrono::steady_clock::now();
   staging_.upload(commands_, std::as_bytes(std::span(scene.triangles)), triangles_);
   if (!scene.cages.empty())

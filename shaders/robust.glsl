@@ -100,6 +100,26 @@ vec3 held_inside(vec3 w) {
   return inside / (inside.x + inside.y + inside.z);
 }
 
+// The point of the triangle's border that the ray passes closest, where the linearised surface f + u du + v dv about
+// `from` has its root `target` outside: the foot of the ray on the edge, not the root's own, from which a grazing
+// ray is far.
+vec3 closest_on_border(vec3 from, vec3 target, vec2 f, vec2 u, vec2 v) {
+  real out0 = target.x;
+  real out1 = target.y;
+  real out2 = target.z;
+  vec3 along = out0 <= out1 && out0 <= out2 ? vec3(0.0, -1.0, 1.0)
+               : out1 <= out2               ? vec3(-1.0, 0.0, 1.0)
+                                            : vec3(-1.0, 1.0, 0.0);
+  vec3 on_edge = out0 <= out1 && out0 <= out2 ? vec3(0.0, target.y + target.x, target.z)
+                 : out1 <= out2               ? vec3(target.x + target.y, 0.0, target.z)
+                                              : vec3(target.x + target.z, target.y, 0.0);
+  vec2 r = f + u * (on_edge.y - from.y) + v * (on_edge.z - from.z);
+  vec2 e = u * along.y + v * along.z;
+  real square = e.x * e.x + e.y * e.y;
+  real s = square > real(0.0) ? -(r.x * e.x + r.y * e.y) / square : real(0.0);
+  return held_inside(on_edge + along * s);
+}
+
 // Newton's method from the weights l within a node. If the node is `certified` to hold one root at most,
 // FOUND_NONE is a proof. On a root: its place along the ray, and its weights.
 uint newton(Shape shape, Triangle tri, FramedPatch framed, Node node, Tangents t, Range det, real stray,
@@ -140,7 +160,7 @@ uint newton(Shape shape, Triangle tri, FramedPatch framed, Node node, Tangents t
     real gu = du;
     real gv = dv;
     if (least(target) < real(0.0)) {
-      weights = held_inside(target);
+      weights = closest_on_border(from, target, f, u, v);
       gu = weights.y - from.y;
       gv = weights.z - from.z;
       if (largest(f + u * gu + v * gv) > reach) return FOUND_NONE;
@@ -159,20 +179,21 @@ void keep_nearest(real z, vec3 weights, uint triangle, real nearest, INOUT(Hit) 
   }
 }
 
-// A part without displacement: its plane is met once, no node is looked at.
-void meet_flat(FramedPatch framed, Node part, uint triangle, real reach, real nearest, INOUT(Hit) hit) {
+// A patch without displacement: its plane is met once, no node is looked at.
+void meet_flat(FramedPatch framed, uint triangle, real reach, real nearest, INOUT(Hit) hit) {
   vec2 P = vec2(framed.P0);
   vec2 u = vec2(framed.P1) - P;
   vec2 v = vec2(framed.P2) - P;
   real det = cross2(u, v);
+  // Seen so much from its edge that it is thinner than the grain: what is behind it, or beside it, is met.
+  if (!(abs(det) > reach * max(largest(u), largest(v)))) return;
   real a = -cross2(P, v) / det;
   real b = cross2(P, u) / det;
   vec3 w = vec3(real(1.0) - a - b, a, b);
-  vec3 l = weights_in(part, w);
-  vec3 inside = max(l, vec3(0.0));
-  vec3 held = weights_of(part, inside / (inside.x + inside.y + inside.z));
+  bool inside = least(w) >= real(0.0);
+  vec3 held = inside ? w : closest_on_border(vec3(1.0, 0.0, 0.0), w, P, u, v);
   vec2 missed = P + u * held.y + v * held.z;
-  if (least(l) >= real(0.0) || largest(missed) <= reach) {
+  if (inside || largest(missed) <= reach) {
     real z = framed.P0.z + (framed.P1.z - framed.P0.z) * held.y + (framed.P2.z - framed.P0.z) * held.z;
     keep_nearest(z, held, triangle, nearest, hit);
   }
@@ -216,7 +237,7 @@ void meet_part(Shape shape, Triangle tri, Cage cage, RayFrame frame, real neares
   node.origin = vec3(cage.node);
   node.size = cage.node.w;
   if (cage.flat_part == 1u) {
-    meet_flat(framed, node, cage.triangle, reach, nearest, hit);
+    meet_flat(framed, cage.triangle, reach, nearest, hit);
     return;
   }
   int level = 0;

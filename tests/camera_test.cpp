@@ -24,7 +24,7 @@ TraceParams rays(const Camera& camera, uint32_t width, uint32_t height,
   TraceParams params{};
   params.width = width;
   params.height = height;
-  set_rays(camera, origin, 0.01, 100.0, params);
+  set_rays(camera, origin, 1.0, 0.01, 100.0, params);
   return params;
 }
 

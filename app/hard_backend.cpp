@@ -1,0 +1,55 @@
+#include "app/hard_backend.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+#include <thread>
+#include <tuple>
+
+#include "app/cpu_tracer.h"
+#include "app/ray_caster.h"
+#include "app/vulkan_tracer.h"
+
+namespace trisect {
+
+HardBackend vulkan_hard_backend(const gpu::Device& device) {
+  using Key = std::tuple<uint, uint, uint>;
+  using Kernels = std::map<Key, std::shared_ptr<const gpu::Kernel>>;
+  HardBackend backend;
+  backend.device = device.report().name;
+  backend.driver = device.report().driver;
+  backend.cast = [&device, kernels = std::make_shared<Kernels>()](
+                     const BakedScene& scene, const TraceParams& params, uint solver,
+                     std::span<const CastRay> rays) {
+    auto& kernel = (*kernels)[{scene.choice.surface, scene.choice.shell, solver}];
+    if (!kernel) kernel = RayCaster::kernel_for(device, scene.choice, solver, true);
+    return RayCaster(device, scene, params, kernel).cast(rays);
+  };
+  backend.render = [&device](const BakedScene& scene, const TraceParams& params,
+                             const KernelChoice& choice) {
+    Frame frame;
+    VulkanTracer(device, scene, params.width, params.height, choice).render(params, frame);
+    return frame;
+  };
+  return backend;
+}
+
+HardBackend cpu_hard_backend() {
+  HardBackend backend;
+  backend.device = fmt::format("CPU, {} threads", std::thread::hardware_concurrency());
+  backend.driver = "the kernel as C++, single precision";
+  backend.cast = [](const BakedScene& scene, const TraceParams& params, uint solver,
+                    std::span<const CastRay> rays) {
+    return cast_on_cpu(scene, params, solver, rays);
+  };
+  backend.render = [](const BakedScene& scene, const TraceParams& params,
+                      const KernelChoice& choice) {
+    Frame frame;
+    trace_on_cpu(scene, params, choice, frame);
+    return frame;
+  };
+  return backend;
+}
+
+}  // namespace trisect

@@ -1,0 +1,83 @@
+// The catalogue of hard cases that every solver is measured on: generated scenes with rays, and
+// images and files with a known answer.
+#pragma once
+
+#include <functional>
+#include <glm/glm.hpp>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/bake.h"
+#include "app/frame.h"
+#include "app/kernel_choice.h"
+#include "app/mesh.h"
+#include "app/shared.h"
+
+namespace trisect {
+
+// Who casts rays and renders frames: a Vulkan device, or the kernel as C++.
+struct HardBackend {
+  std::string device;
+  std::string driver;
+  std::function<std::vector<CastHit>(const BakedScene&, const TraceParams&, uint solver,
+                                     std::span<const CastRay>)>
+      cast;
+  std::function<Frame(const BakedScene&, const TraceParams&, const KernelChoice&)> render;
+};
+
+enum class HardKind { shape, ray, scale, image, data };
+
+// A scene and its rays; what they meet is the oracle's to say.
+struct RayCase {
+  std::string name;
+  std::string what;  // for the JSON: what is hard about it
+  HardKind kind = HardKind::shape;
+  std::function<Mesh()> mesh;
+  // Rays relative to the scene's origin, from a generator that is seeded the same for every row.
+  std::function<std::vector<CastRay>(const BakedScene&, std::mt19937_64&)> rays;
+  std::vector<uint> surfaces{SURFACE_PHONG, SURFACE_SPHERE};
+  double alpha = 0.65;
+  uint32_t rank = 10;
+  // Of a surface without border whose faces turn outward, met from outside: a ray that first meets
+  // a back comes through a crack.
+  bool closed = false;
+  // The oracle takes up to seconds for a ray at the sphere surface that grazes a patch; so many
+  // rays are left for each surface, drawn from all.
+  std::size_t most_rays = 120;
+  std::size_t most_sphere_rays = 24;
+  // Where it takes minutes: no height shell with the sphere surface.
+  bool sphere_in_height = true;
+};
+
+// Counts of what went otherwise than it should, as analysis says.
+struct CheckedOutcome {
+  std::size_t rays = 0;  // or pixels, or files
+  std::size_t undecidable = 0;
+  std::size_t wrong = 0;
+  std::size_t missed = 0;
+  std::size_t nans = 0;
+  std::vector<double> errors;  // across the surface, over the scene's radius
+  double evaluations = 0.0;    // all of them
+  std::string note;
+};
+
+// A case that is no list of rays: an image, a file. Robust solver, normal shell, phong.
+struct CheckedCase {
+  std::string name;
+  std::string what;
+  HardKind kind = HardKind::image;
+  std::function<CheckedOutcome(const HardBackend&)> run;
+};
+
+const char* kind_name(HardKind kind);
+
+std::vector<RayCase> hard_shape_cases();
+std::vector<RayCase> hard_ray_cases();
+std::vector<RayCase> hard_scale_cases();
+// Shapes, rays, scales.
+std::vector<RayCase> hard_ray_catalogue();
+std::vector<CheckedCase> hard_checked_cases();
+
+}  // namespace trisect

@@ -1,0 +1,212 @@
+#include "app/hard_judge.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/cage.h"
+#include "app/parallel_rows.h"
+#include "app/trace_settings.h"
+
+namespace trisect {
+namespace {
+
+using glm::dvec3;
+
+constexpr double kUlp = 0x1p-23;
+
+bool has_nan(const CastHit& hit) {
+  return !std::isfinite(hit.z) || !std::isfinite(hit.u) || !std::isfinite(hit.v);
+}
+
+// Judges one decidable ray that was hit; adds its error if it is not wrong.
+void judge_hit(const OracleRay& ray, const CastHit& hit, const OracleAnswer& answer, double radius,
+               CheckedOutcome& outcome) {
+  if (!answer.hit) {
+    ++outcome.wrong;
+    return;
+  }
+  const double slant = std::abs(glm::dot(ray.direction, answer.root.normal));
+  const double off = std::abs(static_cast<double>(hit.z) - answer.root.t);
+  const bool same_triangle = hit.triangle == answer.root.triangle;
+  const bool tie = off * std::max(slant, 1e-3) <= 1e-6 * radius;
+  const bool other_root = off * slant > 1e-2 * radius;
+  if (same_triangle ? other_root : !tie) {
+    ++outcome.wrong;
+    return;
+  }
+  outcome.errors.push_back(off * slant / radius);
+}
+
+// Who casts along rays that begin behind their anchors needs no help; the bisection marches from
+// its ray's origin, which therefore moves to the beginning.
+std::vector<CastHit> cast_from_start(const HardBackend& backend, const BakedScene& scene,
+                                     const TraceParams& params, std::span<const CastRay> rays) {
+  std::vector<CastRay> moved(rays.begin(), rays.end());
+  for (CastRay& ray : moved) {
+    const dvec3 start =
+        dvec3(ray.anchor) + dvec3(ray.direction) * static_cast<double>(ray.anchor.w);
+    ray.anchor = vec4(glm::vec3(start), 0.0F);
+  }
+  std::vector<CastHit> hits = backend.cast(scene, params, SOLVER_BISECT, moved);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (hits[i].triangle != NO_TRIANGLE) hits[i].z += rays[i].anchor.w;
+  }
+  return hits;
+}
+
+// What all rows of a case in one shell share.
+struct Prepared {
+  BakedScene scene;
+  TraceParams params;
+  std::vector<CastRay> rays;
+  std::vector<OracleAnswer> answers;
+};
+
+Prepared prepare(const RayCase& hard, uint surface, uint shell) {
+  Prepared prepared;
+  prepared.scene = bake(hard.mesh(), {surface, hard.alpha, shell});
+  prepared.scene.cages = bake_cages(prepared.scene);
+  TraceSettings settings;
+  settings.rank = hard.rank;
+  // The rays are the case's own; any camera will do that looks somewhere.
+  settings.camera.eye = prepared.scene.origin + dvec3(0.0, 0.0, 3.0 * prepared.scene.radius);
+  settings.camera.target = prepared.scene.origin;
+  prepared.params = make_params(prepared.scene, settings);
+  std::mt19937_64 random(7);
+  prepared.rays = hard.rays(prepared.scene, random);
+  std::shuffle(prepared.rays.begin(), prepared.rays.end(), random);
+  prepared.rays.resize(std::min(
+      prepared.rays.size(), surface == SURFACE_SPHERE ? hard.most_sphere_rays : hard.most_rays));
+  prepared.answers = oracle_answers(Oracle(prepared.scene), prepared.rays, prepared.scene.radius);
+  return prepared;
+}
+
+HardRow row_of(const RayCase& hard, const Prepared& prepared, uint solver,
+               const HardBackend& backend) {
+  const BakedScene& scene = prepared.scene;
+  HardRow row{hard.name, hard.what, hard.kind, scene.choice.surface, scene.choice.shell, solver,
+              hard.rank, {},        {}};
+  const std::vector<CastHit> hits =
+      solver == SOLVER_BISECT ? cast_from_start(backend, scene, prepared.params, prepared.rays)
+                              : backend.cast(scene, prepared.params, solver, prepared.rays);
+  row.outcome = judge(prepared.rays, hits, prepared.answers, scene.radius);
+  const bool cracks = hard.closed && cracks_seen(prepared.rays, prepared.answers) > 0;
+  row.verdict = verdict_of(row, cracks);
+  return row;
+}
+
+}  // namespace
+
+OracleRay widened(const CastRay& ray) {
+  return {dvec3(ray.anchor), glm::normalize(dvec3(ray.direction)),
+          static_cast<double>(ray.anchor.w)};
+}
+
+std::vector<OracleAnswer> oracle_answers(const Oracle& oracle, std::span<const CastRay> rays,
+                                         double radius) {
+  std::vector<OracleAnswer> answers(rays.size());
+  const auto answer = [&](uint32_t i) {
+    const OracleRay ray = widened(rays[i]);
+    answers[i] = oracle.first(ray, 1e-7 * radius);
+    const double distance = answers[i].hit ? std::abs(answers[i].root.t) : 0.0;
+    if (distance > radius) answers[i] = oracle.first(ray, 1e-7 * distance);
+  };
+  parallel_rows(static_cast<uint32_t>(rays.size()), answer, {});
+  return answers;
+}
+
+CheckedOutcome judge(std::span<const CastRay> rays, std::span<const CastHit> hits,
+                     std::span<const OracleAnswer> answers, double radius) {
+  CheckedOutcome outcome;
+  outcome.rays = rays.size();
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    outcome.evaluations += hits[i].evaluations;
+    if (has_nan(hits[i])) {
+      ++outcome.nans;
+    } else if (!answers[i].decidable) {
+      ++outcome.undecidable;
+    } else if (hits[i].triangle != NO_TRIANGLE) {
+      judge_hit(widened(rays[i]), hits[i], answers[i], radius, outcome);
+    } else if (answers[i].hit) {
+      ++outcome.missed;
+    }
+  }
+  std::sort(outcome.errors.begin(), outcome.errors.end());
+  return outcome;
+}
+
+std::size_t cracks_seen(std::span<const CastRay> rays, std::span<const OracleAnswer> answers) {
+  std::size_t seen = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (!answers[i].decidable || !answers[i].hit) continue;
+    if (glm::dot(widened(rays[i]).direction, answers[i].root.normal) > 0.0) ++seen;
+  }
+  return seen;
+}
+
+double HardRow::error_ulp(double quantile) const {
+  if (outcome.errors.empty()) return 0.0;
+  const double last = static_cast<double>(outcome.errors.size() - 1);
+  return outcome.errors[static_cast<std::size_t>(std::ceil(quantile * last))] / kUlp;
+}
+
+double HardRow::evaluations_per_ray() const {
+  return outcome.rays == 0 ? 0.0 : outcome.evaluations / static_cast<double>(outcome.rays);
+}
+
+bool HardRow::binding() const {
+  return solver == SOLVER_ROBUST && (shell == SHELL_NORMAL || surface == SURFACE_FLAT);
+}
+
+bool passes(const CheckedOutcome& outcome) {
+  if (outcome.wrong + outcome.missed + outcome.nans > 0) return false;
+  if (outcome.errors.empty()) return true;
+  const double last = static_cast<double>(outcome.errors.size() - 1);
+  const double p99 = outcome.errors[static_cast<std::size_t>(std::ceil(0.99 * last))];
+  return p99 <= 2.5e-7 && outcome.errors.back() <= 2e-6;
+}
+
+std::string verdict_of(const HardRow& row, bool cracks) {
+  if (row.solver == SOLVER_BISECT) {
+    // Its depth is measured; at Rank 10 it is no better than a thousandth.
+    const CheckedOutcome& outcome = row.outcome;
+    return outcome.wrong + outcome.missed + outcome.nans == 0 ? "ok" : "fails";
+  }
+  if (!passes(row.outcome)) return "FAIL";
+  return cracks ? "cracks" : "pass";
+}
+
+std::vector<HardRow> run_rows(const RayCase& hard, uint surface, const HardBackend& backend) {
+  std::vector<HardRow> rows;
+  const Prepared normal = prepare(hard, surface, SHELL_NORMAL);
+  rows.push_back(row_of(hard, normal, SOLVER_ROBUST, backend));
+  if (surface == SURFACE_FLAT) {
+    rows.push_back(row_of(hard, normal, SOLVER_BISECT, backend));
+    return rows;
+  }
+  if (surface == SURFACE_SPHERE && !hard.sphere_in_height) {
+    rows.back().outcome.note = "no height shell: the oracle takes minutes";
+    return rows;
+  }
+  const Prepared height = prepare(hard, surface, SHELL_HEIGHT);
+  rows.push_back(row_of(hard, height, SOLVER_ROBUST, backend));
+  rows.push_back(row_of(hard, height, SOLVER_BISECT, backend));
+  return rows;
+}
+
+HardRow run_robust_row(const RayCase& hard, uint surface, const HardBackend& backend) {
+  return row_of(hard, prepare(hard, surface, SHELL_NORMAL), SOLVER_ROBUST, backend);
+}
+
+HardRow run_row(const CheckedCase& hard, const HardBackend& backend) {
+  HardRow row;
+  row.name = hard.name;
+  row.what = hard.what;
+  row.kind = hard.kind;
+  row.outcome = hard.run(backend);
+  std::sort(row.outcome.errors.begin(), row.outcome.errors.end());
+  row.verdict = verdict_of(row, false);
+  return row;
+}
+
+}  // namespace trisect

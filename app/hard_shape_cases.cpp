@@ -1,0 +1,237 @@
+// Hard shapes: patches of one or a few triangles, hit from all around.
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "app/hard_cases.h"
+#include "app/hard_scenes.h"
+#include "app/mesh_builder.h"
+
+namespace trisect {
+namespace {
+
+using glm::dvec3;
+
+const dvec3 kUp(0, 0, 1);
+
+RayCase shape(std::string name, std::string what, std::function<Mesh()> mesh, int count = 240) {
+  RayCase hard;
+  hard.name = std::move(name);
+  hard.what = std::move(what);
+  hard.mesh = std::move(mesh);
+  hard.rays = [count](const BakedScene& scene, std::mt19937_64& random) {
+    return hard::rays_at_surface(scene, random, count);
+  };
+  return hard;
+}
+
+dvec3 tilted(double degrees, const dvec3& toward) {
+  const double angle = glm::radians(degrees);
+  return kUp * std::cos(angle) + glm::normalize(toward) * std::sin(angle);
+}
+
+Mesh sliver(double aspect) {
+  const double thin = 2.0 / aspect;
+  return hard::patch({dvec3(-1, 0, 0), dvec3(1, 0, 0), dvec3(0.1, thin, 0)},
+                     {tilted(30, dvec3(-1, 0, 0)), tilted(30, dvec3(1, 0, 0)), kUp});
+}
+
+// Tilts from 1e-2 to 1e-8, of both signs, a patch each.
+Mesh almost_flat() {
+  Mesh mesh = hard::leaning_patch(1.0);
+  double place = 0.0;
+  for (const double tilt : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8}) {
+    place += 2.5;
+    mesh = hard::joined(mesh, hard::leaning_patch(tilt), dvec3(place, 0, 0));
+    mesh = hard::joined(mesh, hard::leaning_patch(-tilt), dvec3(place, 2, 0));
+  }
+  return mesh;
+}
+
+// A cube whose faces bulge, each with normals of its own.
+Mesh pillow_cube() {
+  Mesh mesh;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      dvec3 n(0.0);
+      n[axis] = side;
+      const dvec3 u(n.z, n.x, n.y);
+      const dvec3 v = glm::cross(n, u);
+      const std::array<dvec3, 4> corners{n - u - v, n + u - v, n + u + v, n - u + v};
+      for (const auto& [b, c] : {std::pair<std::size_t, std::size_t>{1, 2}, {2, 3}}) {
+        const hard::Corners p{corners[0], corners[b], corners[c]};
+        const Mesh half = hard::patch(p, {n * 2.0 + p[0], n * 2.0 + p[1], n * 2.0 + p[2]});
+        mesh = hard::joined(mesh, half, dvec3(0.0));
+      }
+    }
+  }
+  return mesh;
+}
+
+// Three leaves on the edge from -x to x.
+Mesh three_leaves() {
+  const dvec3 a(-1, 0, 0);
+  const dvec3 b(1, 0, 0);
+  Mesh mesh;
+  for (int leaf = 0; leaf < 3; ++leaf) {
+    const double angle = glm::radians(40.0 + 110.0 * leaf);
+    const dvec3 out(0, std::cos(angle), std::sin(angle));
+    const dvec3 n = glm::cross(b - a, out);
+    mesh = hard::joined(mesh, hard::patch({a, b, out}, {n + a, n + b, n + out}), dvec3(0.0));
+  }
+  return mesh;
+}
+
+Mesh every_other_face_turned() {
+  Mesh mesh = hard::sphere();
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 2) {
+    std::swap(mesh.triangles[t].vertex[1], mesh.triangles[t].vertex[2]);
+    std::swap(mesh.triangles[t].normal[1], mesh.triangles[t].normal[2]);
+  }
+  return mesh;
+}
+
+// Twice the same patch, once turned over, and one that overlaps it in its plane.
+Mesh coincident() {
+  const Mesh once = hard::leaning_patch(25.0);
+  Mesh turned = once;
+  std::swap(turned.triangles[0].vertex[1], turned.triangles[0].vertex[2]);
+  std::swap(turned.triangles[0].normal[1], turned.triangles[0].normal[2]);
+  const Mesh twice = hard::joined(once, once, dvec3(0.0));
+  return hard::joined(hard::joined(twice, turned, dvec3(0.0)), once, dvec3(0.4, 0.2, 0.0));
+}
+
+// Faces of no area, one with two corners in one place, in a file with a tetrahedron.
+Mesh with_faces_of_no_area() {
+  const std::string text =
+      "v 1 1 1\nv -1 -1 1\nv -1 1 -1\nv 1 -1 -1\nv 0 0 1\nv 1 1 1\n"
+      "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 1 2 5\nf 1 6 4\nf 1 1 3\n";
+  return build_mesh(parse_obj(text, "no-area"), "no-area").mesh;
+}
+
+std::vector<CastRay> rays_next_to_vertices(const BakedScene& scene, std::mt19937_64& random) {
+  std::vector<CastRay> rays;
+  for (const double away : {0.0, 1e-6, 1e-4, 1e-3}) {
+    for (int i = 0; i < 60; ++i) {
+      dvec3 weights(0.4 * away, 0.6 * away, 0.0);
+      std::swap(weights.z, weights[i % 3]);
+      weights[i % 3 == 2 ? 2 : i % 3] = 0.0;
+      weights[i % 3] = 1.0 - (weights.x + weights.y + weights.z);
+      const auto point =
+          hard::point_at(scene, static_cast<uint32_t>(random() % scene.triangles.size()), weights);
+      rays.push_back(hard::ray_through(scene, point.position, hard::any_direction(random)));
+    }
+  }
+  return rays;
+}
+
+std::vector<CastRay> rays_next_to_border(const BakedScene& scene, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> unit(0.05, 0.95);
+  std::vector<CastRay> rays;
+  for (const double inside : {1e-2, 1e-4, 1e-5, -1e-5, -1e-4, -1e-2}) {
+    for (int i = 0; i < 40; ++i) {
+      const double along = unit(random);
+      const dvec3 w(inside, along * (1.0 - inside), (1.0 - along) * (1.0 - inside));
+      const dvec3 weights = i % 3 == 0   ? w
+                            : i % 3 == 1 ? dvec3(w.z, w.x, w.y)
+                                         : dvec3(w.y, w.z, w.x);
+      const auto point = hard::point_at(scene, 0, weights);
+      rays.push_back(hard::ray_through(scene, point.position, hard::any_direction(random)));
+    }
+  }
+  return rays;
+}
+
+void add_normals(std::vector<RayCase>& cases) {
+  cases.push_back(shape("flat-patch", "every normal is the face's", [] {
+    return hard::plain_patch({kUp, kUp, kUp});
+  }));
+  cases.back().surfaces = {SURFACE_FLAT, SURFACE_PHONG, SURFACE_SPHERE};
+  cases.push_back(shape("one-tilted-normal", "one normal leans by 40 degrees", [] {
+    return hard::plain_patch({kUp, tilted(40, dvec3(1, 0, 0)), kUp});
+  }));
+  cases.push_back(shape("concave", "normals lean inward by 35 degrees",
+                        [] { return hard::leaning_patch(-35.0); }));
+  cases.push_back(
+      shape("saddle", "curvatures of both signs", [] { return hard::height_grid(2, 0.5, -0.5); }));
+  cases.push_back(shape("s-shaped-edge", "an edge whose ends lean the same way", [] {
+    return hard::plain_patch({tilted(45, dvec3(1, 0, 0)), tilted(30, dvec3(1, 0, 0)), kUp});
+  }));
+  cases.push_back(shape("normals-80-apart", "two normals 80 degrees apart", [] {
+    return hard::plain_patch({tilted(40, dvec3(-1, 0, 0)), tilted(40, dvec3(1, 0, 0)), kUp});
+  }));
+  cases.push_back(shape("normal-in-face", "a normal 89.9 degrees off the face's", [] {
+    return hard::plain_patch({tilted(89.9, dvec3(-1, -0.3, 0)), kUp, kUp});
+  }));
+  cases.back().most_sphere_rays = 8;
+  cases.back().sphere_in_height = false;
+  cases.push_back(shape("normal-behind-face", "a normal 120 degrees off the face's", [] {
+    return hard::plain_patch({tilted(120, dvec3(-1, -0.3, 0)), kUp, kUp});
+  }));
+  cases.back().most_sphere_rays = 8;
+  cases.back().sphere_in_height = false;
+}
+
+void add_forms(std::vector<RayCase>& cases) {
+  cases.push_back(shape("sliver-1e4", "10,000 times as long as wide", [] { return sliver(1e4); }));
+  cases.push_back(
+      shape("sliver-1e6", "1,000,000 times as long as wide", [] { return sliver(1e6); }));
+  cases.push_back(shape("faces-of-no-area", "coincident vertices and collinear ones in a file",
+                        with_faces_of_no_area));
+  cases.push_back(shape("folded-shell", "normals that cross: the prism turns over", [] {
+    return hard::plain_patch(
+        {tilted(75, dvec3(1, 0.3, 0)), tilted(75, dvec3(-1, 0.3, 0)), tilted(75, dvec3(0, -1, 0))});
+  }));
+  cases.back().most_sphere_rays = 8;
+  cases.back().sphere_in_height = false;
+  cases.push_back(shape("almost-flat", "curvatures that go to 0 from both sides", almost_flat));
+  cases.push_back(
+      shape("missed-sphere", "lines along the shell that pass by a vertex's small sphere", [] {
+        return hard::patch({dvec3(-1, 0, 0), dvec3(1, 0, 0), dvec3(0.9, 0.5, 0)},
+                           {tilted(80, dvec3(-1, 0.5, 0)), tilted(70, dvec3(0.2, -1, 0)),
+                            tilted(60, dvec3(-1, 1, 0))});
+      }));
+  cases.back().most_sphere_rays = 8;
+  cases.back().sphere_in_height = false;
+  cases.push_back(shape("next-to-a-vertex", "where the angle at the vertex is 0 over 0",
+                        [] { return hard::sphere(); }));
+  cases.back().rays = rays_next_to_vertices;
+}
+
+void add_neighbours(std::vector<RayCase>& cases) {
+  cases.push_back(
+      shape("hard-edges", "faces with normals of their own part at the edges", pillow_cube));
+  cases.back().surfaces = {SURFACE_FLAT, SURFACE_PHONG, SURFACE_SPHERE};
+  cases.push_back(shape("non-manifold-edge", "three patches on one edge", three_leaves));
+  cases.push_back(shape("open-border", "beside a border, within and without",
+                        [] { return hard::leaning_patch(30.0); }));
+  cases.back().rays = rays_next_to_border;
+  cases.push_back(
+      shape("mixed-winding", "every other face is turned over", every_other_face_turned));
+  cases.back().most_sphere_rays = 8;
+  cases.back().sphere_in_height = false;
+  cases.push_back(
+      shape("coincident-patches", "the same patch three times, and one across it", coincident));
+  for (const double alpha : {0.0, 1.0, 2.0}) {
+    cases.push_back(shape(alpha == 0.0   ? "alpha-0"
+                          : alpha == 1.0 ? "alpha-1"
+                                         : "alpha-2",
+                          "Phong Tessellation none, full and beyond",
+                          [] { return hard::sphere(); }));
+    cases.back().alpha = alpha;
+    cases.back().surfaces = {SURFACE_PHONG};
+    cases.back().closed = true;
+  }
+}
+
+}  // namespace
+
+std::vector<RayCase> hard_shape_cases() {
+  std::vector<RayCase> cases;
+  add_normals(cases);
+  add_forms(cases);
+  add_neighbours(cases);
+  return cases;
+}
+
+}  // namespace trisect
