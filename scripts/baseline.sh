@@ -12,7 +12,7 @@ trap 'rm -rf "$work"' EXIT
 measure() {
   local environment=()
   if [ "$1" = newer ]; then read -ra environment < <(scripts/unpack-mesa.sh); fi
-  env "${environment[@]}" build/release/trisect render "assets/$2.obj" --surface "$3" --rank "$4" --runs "$5" \
+  env "${environment[@]}" build/release/trisect render "assets/$2.obj" --preset thesis --surface "$3" --rank "$4" --runs "$5" \
     -o "$work/a.png" --stats "$work/a.json" >/dev/null
 }
 # figure PATH: a figure of the last measurement, such as .hits or .gpu_ms.median.
@@ -75,7 +75,8 @@ END
   done
 } > "$work/baseline.md"
 mv "$work/baseline.md" docs/baseline.md
-picture() { build/release/trisect render "assets/$1.obj" --size 480x360 --rank "$2" -o "docs/$3.png" >/dev/null; }
-picture teapot 20 teapot
-picture sphere-20 10 sphere-20-rank-10
+picture() { build/release/trisect render "assets/$1.obj" --size 480x360 -o "docs/$2.png" "${@:3}" >/dev/null; }
+picture teapot teapot
+picture sphere-20 sphere-20
+picture sphere-20 sphere-20-rank-10 --preset thesis
 cat docs/baseline.md

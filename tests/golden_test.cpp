@@ -22,7 +22,7 @@ struct Golden {
 
 class GoldenFrame : public test::GpuTest, public ::testing::WithParamInterface<Golden> {};
 
-// As `trisect render --size 48x36 --rank 24` makes it.
+// As `trisect render --preset thesis --size 48x36 --rank 24` makes it.
 Frame fresh(const Golden& golden) {
   const Mesh mesh = test::load_asset(golden.model);
   const BakedScene scene = bake(mesh, {golden.surface, 0.65, SHELL_HEIGHT});
