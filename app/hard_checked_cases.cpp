@@ -174,12 +174,13 @@ CheckedOutcome one_triangle(const HardBackend& backend) {
 
 // A level plain of n by n squares, met from above: the depth is known.
 CheckedOutcome many_triangles(const HardBackend& backend) {
-  constexpr int n = 76;  // what the list of the slowest device holds
+  constexpr int n = 150;  // what the list of the slowest device holds
   const Mesh mesh = hard::height_grid(n, 0.0, 0.0);
   const BakedScene scene = robust_scene(mesh);
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> unit(-0.9, 0.9);
   std::vector<CastRay> rays;
+  rays.reserve(64);
   for (int i = 0; i < 64; ++i) {
     rays.push_back(hard::ray_exactly_through(scene, {unit(random), unit(random), 0.0},
                                              {0.3 * unit(random), 0.3 * unit(random), -1.0}));

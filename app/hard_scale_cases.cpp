@@ -46,6 +46,7 @@ Mesh stack() {
 std::vector<CastRay> through_stack(const BakedScene& scene, std::mt19937_64& random) {
   std::uniform_real_distribution<double> near(-0.05, 0.05);
   std::vector<CastRay> rays;
+  rays.reserve(60);
   for (int i = 0; i < 60; ++i) {
     rays.push_back(hard::ray_through(scene, {near(random), near(random), 0.0},
                                      {near(random), near(random), i % 2 == 0 ? 1.0 : -1.0}));

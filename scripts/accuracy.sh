@@ -1,10 +1,10 @@
 #!/bin/bash
 # Measures the solvers against the oracle and on the hard cases, and writes docs/accuracy.md. The argument is the
-# image size, 400x300 without one (about ten minutes; 800x600 takes four times as long).
+# image size, 120x90 without one (about five minutes; 800x600 takes over half an hour).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh build
-size=${1:-400x300}
+size=${1:-120x90}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 smooth=(sphere-20 sphere-80 sphere-320 torus relief capsule cube saddle)

@@ -74,21 +74,31 @@ void trace_robust(PixelRay ray, INOUT(Hit) hit, INOUT(Counts) counts) {
   RayFrame frame = ray_frame(ray.anchor, ray.view);
   real nearest = ray.near_distance - (ray.axis + ray.beyond_axis);
   hit.z = real(1e30);
-  for (uint c = 0u, next = 0u; c < params.cage_count; c = next) {
-    next = c + 1u;
-    vec4 ball = cages[c].ball;
-    vec3 center = vec3(ball) - ray.anchor;
-    real z = dot3(center, ray.view);
-    real size = dot3(center, center);
-    // The distance of the centre from the ray against the radius; the roundings of `size` may add to it.
-    if (size - z * z > ball.w * ball.w + real(5e-7) * size || z + ball.w < nearest || z - ball.w > hit.z) {
-      // Without groups all lanes stay at the same cage.
-      if (GROUPS) next += cages[c].skip;
-      continue;
+  uint c = 0u;
+  while (c < params.cage_count) {
+    // Cages that the ray passes by are passed in a loop of their own: a loop that holds the search below would go
+    // through all of it, masked, for each of them.
+    bool met = false;
+    while (c < params.cage_count && !met) {
+      vec4 ball = cages[c].ball;
+      vec3 center = vec3(ball) - ray.anchor;
+      real z = dot3(center, ray.view);
+      real size = dot3(center, center);
+      // The distance of the centre from the ray against the radius; the roundings of `size` may add to it.
+      bool beside = size - z * z > ball.w * ball.w + real(5e-7) * size || z + ball.w < nearest ||
+                    z - ball.w > hit.z;
+      if (beside) {
+        c += GROUPS ? cages[c].skip + 1u : 1u;
+      } else {
+        met = !GROUPS || cages[c].skip == 0u;
+        if (!met) ++c;
+      }
     }
-    if (GROUPS && cages[c].skip > 0u) continue;
-    if (COUNTS) ++counts.candidates;
-    meet_part(scene_shape(), triangles[cages[c].triangle], cages[c], frame, nearest, hit, counts);
+    if (met) {
+      if (COUNTS) ++counts.candidates;
+      meet_part(scene_shape(), triangles[cages[c].triangle], cages[c], frame, nearest, hit, counts);
+      ++c;
+    }
   }
   hit.z = ray.axis + (ray.beyond_axis + hit.z);
 }
