@@ -1,6 +1,6 @@
 #!/bin/bash
 # Measures the solvers against the oracle and on the hard cases, and writes docs/accuracy.md. The argument is the
-# image size, 120x90 without one (about five minutes; 800x600 takes over half an hour).
+# image size, 120x90 without one (some ten minutes, most of them the oracle on the sphere surface; 800x600 takes hours).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh build
