@@ -94,8 +94,9 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
   expect_loops_to_end(device, scene, choice.solver);
   const auto start = std::chrono::steady_clock::now();
   staging_.upload(commands_, std::as_bytes(std::span(scene.triangles)), triangles_);
-  if (!scene.cages.empty())
+  if (!scene.cages.empty()) {
     staging_.upload(commands_, std::as_bytes(std::span(scene.cages)), cages_);
+  }
   upload_ms_ = milliseconds_since(start);
 }
 
