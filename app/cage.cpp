@@ -7,6 +7,7 @@
 
 #include "app/enclosing_ball.h"
 #include "app/surface_double.h"
+#include "app/widen.h"
 
 namespace trisect {
 namespace {
@@ -56,21 +57,8 @@ struct Fit {
   double bend = 0.0;           // Cage::bend
 };
 
-in_double::Triangle widen(const Triangle& single) {
-  in_double::Triangle tri{};
-  for (int i = 0; i < 3; ++i) {
-    tri.Position[i] = glm::dvec4(single.Position[i]);
-    tri.Normal[i] = glm::dvec4(single.Normal[i]);
-    tri.VertexData[i] = glm::dvec4(single.VertexData[i]);
-  }
-  tri.TriNormal = glm::dvec4(single.TriNormal);
-  tri.NormDot = glm::dvec4(single.NormDot);
-  tri.Domain = glm::dvec4(single.Domain);
-  return tri;
-}
-
 Patch patch_of(const SurfaceChoice& choice, const Triangle& single) {
-  Patch patch{{choice.surface, choice.shell, choice.alpha}, widen(single), {}, {}};
+  Patch patch{shape_of(choice), widen(single), {}, {}};
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
     patch.P[k] = dvec3(patch.tri.Position[i]);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "app/cage.h"
 #include "app/kernel_float.h"
 #include "app/parallel_rows.h"
 
@@ -15,16 +14,9 @@ void trace_on_cpu(const BakedScene& scene, const TraceParams& params, const Kern
   const std::size_t pixels = std::size_t{params.width} * params.height;
   frame.colors.resize(pixels);
   frame.aovs.resize(choice.aovs ? pixels : 0);
+  const in_float::Kernel shared = in_float::kernel_of(scene, params, choice);
   const auto row = [&](uint32_t y) {
-    in_float::Kernel kernel{params,
-                            scene.triangles.data(),
-                            scene.cages.data(),
-                            scene.choice.surface,
-                            scene.choice.shell,
-                            choice.solver,
-                            choice.aovs,
-                            choice.counts,
-                            has_groups(scene)};
+    in_float::Kernel kernel = shared;
     for (uint32_t x = 0; x < params.width; ++x) {
       const std::size_t pixel = std::size_t{y} * params.width + x;
       PixelAovs aovs{};
@@ -39,16 +31,9 @@ std::vector<CastHit> cast_on_cpu(const BakedScene& scene, const TraceParams& par
                                  std::span<const CastRay> rays) {
   std::vector<CastHit> hits(rays.size());
   constexpr std::size_t batch = 1024;
+  const in_float::Kernel shared = in_float::kernel_of(scene, params, {solver, false, true});
   const auto row = [&](uint32_t y) {
-    in_float::Kernel kernel{params,
-                            scene.triangles.data(),
-                            scene.cages.data(),
-                            scene.choice.surface,
-                            scene.choice.shell,
-                            solver,
-                            false,
-                            true,
-                            has_groups(scene)};
+    in_float::Kernel kernel = shared;
     const std::size_t first = y * batch;
     const std::size_t end = std::min(first + batch, rays.size());
     for (std::size_t i = first; i < end; ++i) hits[i] = kernel.cast_ray(rays[i]);

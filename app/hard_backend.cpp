@@ -24,7 +24,7 @@ HardBackend vulkan_hard_backend(const gpu::Device& device) {
                      std::span<const CastRay> rays) {
     auto& kernel = (*kernels)[{scene.choice.surface, scene.choice.shell, solver}];
     if (!kernel) kernel = RayCaster::kernel_for(device, scene.choice, solver, true);
-    return RayCaster(device, scene, params, kernel).cast(rays);
+    return RayCaster(device, scene, params, solver, kernel).cast(rays);
   };
   backend.render = [&device](const BakedScene& scene, const TraceParams& params,
                              const KernelChoice& choice) {

@@ -7,24 +7,12 @@
 #include <utility>
 
 #include "app/surface_double.h"
+#include "app/widen.h"
 
 namespace trisect::hard {
 namespace {
 
 using glm::dvec3;
-
-in_double::Triangle widen(const Triangle& tri) {
-  in_double::Triangle wide{};
-  for (int i = 0; i < 3; ++i) {
-    wide.Position[i] = glm::dvec4(tri.Position[i]);
-    wide.Normal[i] = glm::dvec4(tri.Normal[i]);
-    wide.VertexData[i] = glm::dvec4(tri.VertexData[i]);
-  }
-  wide.TriNormal = glm::dvec4(tri.TriNormal);
-  wide.NormDot = glm::dvec4(tri.NormDot);
-  wide.Domain = glm::dvec4(tri.Domain);
-  return wide;
-}
 
 Mesh icosahedron() {
   const double g = glm::golden_ratio<double>();

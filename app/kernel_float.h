@@ -4,6 +4,8 @@
 
 #include <glm/glm.hpp>
 
+#include "app/bake.h"
+#include "app/kernel_choice.h"
 #include "app/shared.h"
 
 namespace trisect::in_float {
@@ -44,5 +46,9 @@ struct Kernel {
 #undef real
 #undef OUT
 #undef INOUT
+
+// The kernel that a back end makes of the same scene and choice. Keeps references to both of the
+// first two. Each thread needs a copy: GLSL knows no const functions.
+Kernel kernel_of(const BakedScene& scene, const TraceParams& params, const KernelChoice& choice);
 
 }  // namespace trisect::in_float

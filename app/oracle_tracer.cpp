@@ -36,15 +36,7 @@ OracleFrame trace_with_oracle(const BakedScene& scene, const TraceParams& params
 }
 
 Frame frame_of(const OracleFrame& answers, const BakedScene& scene, const TraceParams& params) {
-  in_float::Kernel kernel{params,
-                          scene.triangles.data(),
-                          scene.cages.data(),
-                          scene.choice.surface,
-                          scene.choice.shell,
-                          SOLVER_ROBUST,
-                          true,
-                          false,
-                          false};
+  in_float::Kernel kernel = in_float::kernel_of(scene, params, {SOLVER_ROBUST, true, false});
   Frame frame;
   frame.width = answers.width;
   frame.height = answers.height;

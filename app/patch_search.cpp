@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/sphere_range.h"
+#include "app/widen.h"
 
 namespace trisect {
 namespace {
@@ -71,19 +72,6 @@ std::pair<dvec3, double> ball_of_quadratic(std::array<dvec3, 6> values) {
   return {center, radius};
 }
 
-in_double::Triangle widened(const Triangle& tri) {
-  in_double::Triangle wide{};
-  for (int i = 0; i < 3; ++i) {
-    wide.Position[i] = glm::dvec4(tri.Position[i]);
-    wide.Normal[i] = glm::dvec4(tri.Normal[i]);
-    wide.VertexData[i] = glm::dvec4(tri.VertexData[i]);
-  }
-  wide.TriNormal = glm::dvec4(tri.TriNormal);
-  wide.NormDot = glm::dvec4(tri.NormDot);
-  wide.Domain = glm::dvec4(tri.Domain);
-  return wide;
-}
-
 // Near a fold Newton's iterates agree with a double root to half their digits only; two roots on
 // the same side of the surface that are this near are one.
 bool same_root(const PatchFindings::Root& a, const PatchFindings::Root& b, const dvec3& direction) {
@@ -123,8 +111,8 @@ struct PatchSearch::Query {
 PatchSearch::PatchSearch(const SurfaceChoice& choice, const Triangle& tri, int levels)
     : choice_(choice),
       patch_(patch_of(choice.shell, tri)),
-      shape_{choice.surface, choice.shell, choice.alpha},
-      tri_(widened(tri)),
+      shape_(shape_of(choice)),
+      tri_(widen(tri)),
       defined_(true),
       quadratic_tangents_(choice.surface == SURFACE_FLAT ||
                           (choice.surface == SURFACE_PHONG && choice.shell == SHELL_NORMAL)) {

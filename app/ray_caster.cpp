@@ -22,13 +22,6 @@ std::size_t bytes_for(const std::vector<T>& items) {
 
 }  // namespace
 
-RayCaster::RayCaster(const gpu::Device& device, const BakedScene& scene, const TraceParams& params,
-                     uint solver)
-    : RayCaster(device, scene, params,
-                kernel_for(device, scene.choice, solver, has_groups(scene))) {
-  expect_loops_to_end(device, scene, solver);
-}
-
 std::shared_ptr<const gpu::Kernel> RayCaster::kernel_for(const gpu::Device& device,
                                                          const SurfaceChoice& choice, uint solver,
                                                          bool groups) {
@@ -42,8 +35,9 @@ std::shared_ptr<const gpu::Kernel> RayCaster::kernel_for(const gpu::Device& devi
 }
 
 RayCaster::RayCaster(const gpu::Device& device, const BakedScene& scene, const TraceParams& params,
-                     std::shared_ptr<const gpu::Kernel> kernel)
-    : kernel_(std::move(kernel)),
+                     uint solver, std::shared_ptr<const gpu::Kernel> kernel)
+    : kernel_(kernel ? std::move(kernel)
+                     : kernel_for(device, scene.choice, solver, has_groups(scene))),
       commands_(device),
       staging_(device, kStagingBytes),
       params_(device, sizeof(TraceParams), gpu::Memory::device, "trace parameters"),
@@ -52,6 +46,7 @@ RayCaster::RayCaster(const gpu::Device& device, const BakedScene& scene, const T
       rays_(device, kBatch * sizeof(CastRay), gpu::Memory::device, "rays"),
       hits_(device, kBatch * sizeof(CastHit), gpu::Memory::device, "hits"),
       bound_(device, *kernel_, {&params_, &triangles_, &cages_, &rays_, &hits_}) {
+  expect_loops_to_end(device, scene, solver);
   staging_.upload(commands_, std::as_bytes(std::span(&params, 1)), params_);
   staging_.upload(commands_, std::as_bytes(std::span(scene.triangles)), triangles_);
   if (!scene.cages.empty()) {

@@ -17,14 +17,10 @@ class RayCaster {
   // params: rank, resolution, min_delta, alpha and the counts of triangles and cages; its camera is
   // not used. solver: SOLVER_ROBUST needs the scene's cages. Throws gpu::Error if the device cannot
   // hold the scene.
+  // kernel: one of kernel_for(device, scene.choice, solver, groups) that several scenes share,
+  // `groups` true if has_groups() of any of them; without one the scene's own is compiled.
   RayCaster(const gpu::Device& device, const BakedScene& scene, const TraceParams& params,
-            uint solver);
-
-  // The same with a kernel of kernel_for(device, scene.choice, solver, groups), groups
-  // true if has_groups(scene): compiled once, it serves
-  // many scenes.
-  RayCaster(const gpu::Device& device, const BakedScene& scene, const TraceParams& params,
-            std::shared_ptr<const gpu::Kernel> kernel);
+            uint solver, std::shared_ptr<const gpu::Kernel> kernel = nullptr);
   static std::shared_ptr<const gpu::Kernel> kernel_for(const gpu::Device& device,
                                                        const SurfaceChoice& choice, uint solver,
                                                        bool groups);

@@ -7,14 +7,18 @@ real length2(vec2 a) { return sqrt(a.x * a.x + a.y * a.y); }
 
 real largest(vec2 a) { return max(abs(a.x), abs(a.y)); }
 
+// From a node's origin to that of its child k.
+vec3 child_shift(uint k, real half_size) {
+  if (k == 3u) return vec3(half_size);
+  return vec3(k == 0u ? half_size : real(0.0), k == 1u ? half_size : real(0.0),
+              k == 2u ? half_size : real(0.0));
+}
+
 // The part of the patch that a corner's child, k = 0, 1, 2, or the middle one, k = 3, covers.
 Node child(Node node, uint k) {
   real half_size = real(0.5) * node.size;
-  vec3 shift = k == 3u ? vec3(half_size)
-                       : vec3(k == 0u ? half_size : real(0.0), k == 1u ? half_size : real(0.0),
-                              k == 2u ? half_size : real(0.0));
   Node part;
-  part.origin = node.origin + shift;
+  part.origin = node.origin + child_shift(k, half_size);
   part.size = k == 3u ? -half_size : half_size;
   return part;
 }
@@ -22,11 +26,8 @@ Node child(Node node, uint k) {
 // The node whose child k this is.
 Node parent(Node part, uint k) {
   real half_size = k == 3u ? -part.size : part.size;
-  vec3 shift = k == 3u ? vec3(half_size)
-                       : vec3(k == 0u ? half_size : real(0.0), k == 1u ? half_size : real(0.0),
-                              k == 2u ? half_size : real(0.0));
   Node node;
-  node.origin = part.origin - shift;
+  node.origin = part.origin - child_shift(k, half_size);
   node.size = real(2.0) * half_size;
   return node;
 }

@@ -4,8 +4,7 @@
 // of dyadic size, are taken from a quadtree: one whose cage stays clear of the ray is done; one in which the cage
 // allows one root at most (jacobian) is solved by Newton's method, held within the node; where that ends on the
 // node's border without a root, an interval Newton test must prove that there is none. What is not proven is
-// divided. Silhouettes, where a ray grazes a node, are divided until the cage is no finer than the node; Newton
-// then starts from every corner.
+// divided. Silhouettes, where a ray grazes a node, are divided MOST_LEVELS times; Newton then starts from every corner.
 //
 // After projecting the control points on two planes through the ray the test of the hull is Bezier clipping's
 // (Nishita, Sederberg & Kakimoto 1990); the test of the tangents is Volino & Magnenat-Thalmann's (1994) criterion
@@ -104,15 +103,12 @@ vec3 held_inside(vec3 w) {
 // `from` has its root `target` outside: the foot of the ray on the edge, not the root's own, from which a grazing
 // ray is far.
 vec3 closest_on_border(vec3 from, vec3 target, vec2 f, vec2 u, vec2 v) {
-  real out0 = target.x;
-  real out1 = target.y;
-  real out2 = target.z;
-  vec3 along = out0 <= out1 && out0 <= out2 ? vec3(0.0, -1.0, 1.0)
-               : out1 <= out2               ? vec3(-1.0, 0.0, 1.0)
-                                            : vec3(-1.0, 1.0, 0.0);
-  vec3 on_edge = out0 <= out1 && out0 <= out2 ? vec3(0.0, target.y + target.x, target.z)
-                 : out1 <= out2               ? vec3(target.x + target.y, 0.0, target.z)
-                                              : vec3(target.x + target.z, target.y, 0.0);
+  bool beyond0 = target.x <= target.y && target.x <= target.z;
+  bool beyond1 = !beyond0 && target.y <= target.z;
+  vec3 along = beyond0 ? vec3(0.0, -1.0, 1.0) : beyond1 ? vec3(-1.0, 0.0, 1.0) : vec3(-1.0, 1.0, 0.0);
+  vec3 on_edge = beyond0   ? vec3(0.0, target.y + target.x, target.z)
+                 : beyond1 ? vec3(target.x + target.y, 0.0, target.z)
+                           : vec3(target.x + target.z, target.y, 0.0);
   vec2 r = f + u * (on_edge.y - from.y) + v * (on_edge.z - from.z);
   vec2 e = u * along.y + v * along.z;
   real square = e.x * e.x + e.y * e.y;

@@ -154,13 +154,13 @@ TEST(Oracle, AgreesWithBruteForceOnCurvedPatches) {
                                       SurfaceChoice{SURFACE_SPHERE, 0.0, SHELL_HEIGHT}}) {
     for (int i = 0; i < 15; ++i) {
       const BakedScene scene = scene_of({test::random_patch(random, 60.0)}, choice);
-      const in_double::Triangle tri = test::widen(scene.triangles[0]);
+      const in_double::Triangle tri = widen(scene.triangles[0]);
       const Oracle oracle(scene);
       for (int k = 0; k < 4; ++k) {
         const dvec3 target =
-            in_double::surface_point(test::shape_of(choice), tri, dvec3(0.3, 0.25, 0.45));
+            in_double::surface_point(shape_of(choice), tri, dvec3(0.3, 0.25, 0.45));
         const OracleRay ray = random_ray_at(target + random_direction(random) * 0.05, 4.0, random);
-        const BruteForce brute = brute_force(test::shape_of(choice), tri, ray, 150);
+        const BruteForce brute = brute_force(shape_of(choice), tri, ray, 150);
         if (!brute.clear) continue;
         const std::vector<OracleRoot> roots = oracle.roots_of(0, ray);
         ASSERT_EQ(roots.size(), brute.t.size())
@@ -258,8 +258,8 @@ TEST(Oracle, DecidesARayThroughASharedEdgeOfTheNormalShell) {
     const SurfaceChoice choice{surface, 0.65, SHELL_NORMAL};
     const BakedScene scene = scene_of(roof(), choice);
     const Oracle oracle(scene);
-    const dvec3 on_edge = in_double::surface_point(
-        test::shape_of(choice), test::widen(scene.triangles[0]), dvec3(0.375, 0.625, 0));
+    const dvec3 on_edge = in_double::surface_point(shape_of(choice), widen(scene.triangles[0]),
+                                                   dvec3(0.375, 0.625, 0));
     const dvec3 direction = glm::normalize(dvec3(0.1, 0.05, -1));
     const OracleRay ray{on_edge - direction * 2.0, direction};
     const std::vector<OracleRoot> roots = oracle.roots(ray);
@@ -278,7 +278,7 @@ TEST(Oracle, DecidesARayThroughASharedEdgeOfTheNormalShell) {
 TEST(Oracle, CannotTellARayAtAnOpenEdge) {
   const Oracle oracle(scene_of(roof(), {SURFACE_PHONG, 0.65, SHELL_NORMAL}));
   const in_double::Triangle tri =
-      test::widen(scene_of(roof(), {SURFACE_PHONG, 0.65, SHELL_NORMAL}).triangles[0]);
+      widen(scene_of(roof(), {SURFACE_PHONG, 0.65, SHELL_NORMAL}).triangles[0]);
   const dvec3 border =
       in_double::surface_point({SURFACE_PHONG, SHELL_NORMAL, 0.65}, tri, dvec3(0.375, 0, 0.625));
   const dvec3 outward = glm::normalize(dvec3(-1, -1, 0));
@@ -311,7 +311,7 @@ TEST(Oracle, FindsThreeRootsOnAnSShapedPatch) {
       {{{dvec3(-1, 0, 0), dvec3(1, 0, 0), dvec3(0, 1, 0)}, {leaning, -leaning, dvec3(0, 0, 1)}}},
       choice);
   const Oracle oracle(scene);
-  const in_double::Triangle tri = test::widen(scene.triangles[0]);
+  const in_double::Triangle tri = widen(scene.triangles[0]);
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> near(-0.02, 0.02);
   int three = 0;
@@ -321,7 +321,7 @@ TEST(Oracle, FindsThreeRootsOnAnSShapedPatch) {
     const dvec3 direction = glm::normalize(dvec3(1, near(random), 0.3 + near(random)));
     const dvec3 target(near(random), 0.05 + near(random), near(random));
     const OracleRay ray{target - direction * 4.0, direction};
-    const BruteForce brute = brute_force(test::shape_of(choice), tri, ray, 150);
+    const BruteForce brute = brute_force(shape_of(choice), tri, ray, 150);
     // None of these rays grazes the patch or its border, though `clear` is too strict to say so.
     const std::vector<OracleRoot> roots = oracle.roots_of(0, ray);
     ASSERT_EQ(roots.size(), brute.t.size()) << "ray " << i;

@@ -16,10 +16,10 @@ using glm::dvec3;
 
 // The farthest that a point of the patch lies from the centre of its Domain, over the radius.
 double reach(const SurfaceChoice& choice, const Triangle& baked) {
-  const in_double::Triangle tri = test::widen(baked);
+  const in_double::Triangle tri = widen(baked);
   double farthest = 0.0;
   for (const dvec3& w : test::weight_grid(24)) {
-    const dvec3 point = in_double::surface_point(test::shape_of(choice), tri, w);
+    const dvec3 point = in_double::surface_point(shape_of(choice), tri, w);
     const double distance = glm::distance(point, dvec3(tri.Domain)) / tri.Domain.w;
     // A normal at right angles to the face leaves the height shell undefined (NaN) there.
     if (distance > farthest) farthest = distance;

@@ -50,23 +50,6 @@ RandomPatch random_patch(std::mt19937_64& random, double spread) {
   return patch;
 }
 
-in_double::Shape shape_of(const SurfaceChoice& choice) {
-  return {choice.surface, choice.shell, choice.alpha};
-}
-
-in_double::Triangle widen(const Triangle& tri) {
-  in_double::Triangle wide{};
-  for (int i = 0; i < 3; ++i) {
-    wide.Position[i] = glm::dvec4(tri.Position[i]);
-    wide.Normal[i] = glm::dvec4(tri.Normal[i]);
-    wide.VertexData[i] = glm::dvec4(tri.VertexData[i]);
-  }
-  wide.TriNormal = glm::dvec4(tri.TriNormal);
-  wide.NormDot = glm::dvec4(tri.NormDot);
-  wide.Domain = glm::dvec4(tri.Domain);
-  return wide;
-}
-
 std::vector<dvec3> weight_grid(int n, bool interior) {
   std::vector<dvec3> weights;
   const int margin = interior ? 1 : 0;

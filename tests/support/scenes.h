@@ -10,6 +10,7 @@
 #include "app/bake.h"
 #include "app/mesh.h"
 #include "app/surface_double.h"
+#include "app/widen.h"
 
 namespace trisect::test {
 
@@ -30,11 +31,6 @@ struct RandomPatch {
   std::array<glm::dvec3, 3> normals;
 };
 RandomPatch random_patch(std::mt19937_64& random, double spread);
-
-in_double::Shape shape_of(const SurfaceChoice& choice);
-
-// The baked numbers in double precision.
-in_double::Triangle widen(const Triangle& tri);
 
 // All weights with denominators n, (n + 1) (n + 2) / 2 of them; without the border if `interior`.
 std::vector<glm::dvec3> weight_grid(int n, bool interior = false);

@@ -1,0 +1,19 @@
+#include "app/kernel_float.h"
+
+#include "app/cage.h"
+
+namespace trisect::in_float {
+
+Kernel kernel_of(const BakedScene& scene, const TraceParams& params, const KernelChoice& choice) {
+  return {params,
+          scene.triangles.data(),
+          scene.cages.data(),
+          scene.choice.surface,
+          scene.choice.shell,
+          choice.solver,
+          choice.aovs,
+          choice.counts,
+          has_groups(scene)};
+}
+
+}  // namespace trisect::in_float

@@ -1,0 +1,22 @@
+#include "app/widen.h"
+
+namespace trisect {
+
+in_double::Shape shape_of(const SurfaceChoice& choice) {
+  return {choice.surface, choice.shell, choice.alpha};
+}
+
+in_double::Triangle widen(const Triangle& tri) {
+  in_double::Triangle wide{};
+  for (int i = 0; i < 3; ++i) {
+    wide.Position[i] = glm::dvec4(tri.Position[i]);
+    wide.Normal[i] = glm::dvec4(tri.Normal[i]);
+    wide.VertexData[i] = glm::dvec4(tri.VertexData[i]);
+  }
+  wide.TriNormal = glm::dvec4(tri.TriNormal);
+  wide.NormDot = glm::dvec4(tri.NormDot);
+  wide.Domain = glm::dvec4(tri.Domain);
+  return wide;
+}
+
+}  // namespace trisect

@@ -1,0 +1,15 @@
+// The baked numbers in double precision, for the shaders' mathematics there.
+#pragma once
+
+#include "app/shared.h"
+#include "app/surface_choice.h"
+#include "app/surface_double.h"
+
+namespace trisect {
+
+in_double::Shape shape_of(const SurfaceChoice& choice);
+
+// Exact: no number changes.
+in_double::Triangle widen(const Triangle& tri);
+
+}  // namespace trisect
