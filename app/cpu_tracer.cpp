@@ -1,11 +1,24 @@
 #include "app/cpu_tracer.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "app/kernel_float.h"
 #include "app/parallel_rows.h"
 
 namespace trisect {
+namespace {
+
+// No thread is kept too long here: rays do not pause.
+constexpr int kSteps = std::numeric_limits<int>::max();
+
+using in_float::Kernel;
+
+void walk_through(Kernel& kernel, const Kernel::PixelRay& ray, in_float::Walk& walk) {
+  for (uint pass = 0; pass == 0 || !kernel.is_through(walk); ++pass) kernel.go_on(ray, pass, walk);
+}
+
+}  // namespace
 
 void trace_on_cpu(const BakedScene& scene, const TraceParams& params, const KernelChoice& choice,
                   Frame& frame, const std::function<void(uint32_t)>& between_rows) {
@@ -14,13 +27,16 @@ void trace_on_cpu(const BakedScene& scene, const TraceParams& params, const Kern
   const std::size_t pixels = std::size_t{params.width} * params.height;
   frame.colors.resize(pixels);
   frame.aovs.resize(choice.aovs ? pixels : 0);
-  const in_float::Kernel shared = in_float::kernel_of(scene, params, choice);
+  const Kernel shared = in_float::kernel_of(scene, params, choice);
   const auto row = [&](uint32_t y) {
-    in_float::Kernel kernel = shared;
+    Kernel kernel = shared;
     for (uint32_t x = 0; x < params.width; ++x) {
       const std::size_t pixel = std::size_t{y} * params.width + x;
       PixelAovs aovs{};
-      kernel.trace_pixel({x, y}, frame.colors[pixel], aovs);
+      const Kernel::PixelRay ray = kernel.pixel_ray({x, y});
+      in_float::Walk walk = kernel.walk_begun(kSteps);
+      walk_through(kernel, ray, walk);
+      kernel.finish_pixel(ray, walk, frame.colors[pixel], aovs);
       if (choice.aovs) frame.aovs[pixel] = aovs;
     }
   };
@@ -31,12 +47,17 @@ std::vector<CastHit> cast_on_cpu(const BakedScene& scene, const TraceParams& par
                                  std::span<const CastRay> rays) {
   std::vector<CastHit> hits(rays.size());
   constexpr std::size_t batch = 1024;
-  const in_float::Kernel shared = in_float::kernel_of(scene, params, {solver, false, true});
+  const Kernel shared = in_float::kernel_of(scene, params, {solver, false, true});
   const auto row = [&](uint32_t y) {
-    in_float::Kernel kernel = shared;
+    Kernel kernel = shared;
     const std::size_t first = y * batch;
     const std::size_t end = std::min(first + batch, rays.size());
-    for (std::size_t i = first; i < end; ++i) hits[i] = kernel.cast_ray(rays[i]);
+    for (std::size_t i = first; i < end; ++i) {
+      const Kernel::PixelRay ray = kernel.ray_cast(rays[i]);
+      in_float::Walk walk = kernel.walk_begun(kSteps);
+      walk_through(kernel, ray, walk);
+      hits[i] = kernel.hit_cast(ray, walk);
+    }
   };
   parallel_rows(static_cast<uint32_t>((rays.size() + batch - 1) / batch), row, {});
   return hits;

@@ -5,7 +5,6 @@
 
 #include "app/cage.h"
 #include "app/kernels.h"
-#include "app/loop_limit.h"
 #include "app/submit_budget.h"
 
 namespace trisect {
@@ -35,7 +34,7 @@ std::shared_ptr<const gpu::Kernel> RayCaster::kernel_for(const gpu::Device& devi
 }
 
 RayCaster::RayCaster(const gpu::Device& device, const BakedScene& scene, const TraceParams& params,
-                     uint solver, std::shared_ptr<const gpu::Kernel> kernel)
+                     uint solver, std::shared_ptr<const gpu::Kernel> kernel, uint32_t steps)
     : kernel_(kernel ? std::move(kernel)
                      : kernel_for(device, scene.choice, solver, has_groups(scene))),
       commands_(device),
@@ -45,8 +44,9 @@ RayCaster::RayCaster(const gpu::Device& device, const BakedScene& scene, const T
       cages_(device, bytes_for(scene.cages), gpu::Memory::device, "cages"),
       rays_(device, kBatch * sizeof(CastRay), gpu::Memory::device, "rays"),
       hits_(device, kBatch * sizeof(CastHit), gpu::Memory::device, "hits"),
-      bound_(device, *kernel_, {&params_, &triangles_, &cages_, &rays_, &hits_}) {
-  expect_loops_to_end(device, scene, solver);
+      queue_(device, kBatch, steps),
+      bound_(device, *kernel_,
+             {&params_, &triangles_, &cages_, &rays_, &hits_, &queue_.paused(), &queue_.queued()}) {
   staging_.upload(commands_, std::as_bytes(std::span(&params, 1)), params_);
   staging_.upload(commands_, std::as_bytes(std::span(scene.triangles)), triangles_);
   if (!scene.cages.empty()) {
@@ -64,10 +64,8 @@ std::vector<CastHit> RayCaster::cast(std::span<const CastRay> rays,
     for (std::size_t done = 0; done < count;) {
       const auto groups = static_cast<uint32_t>(
           std::min<std::size_t>(budget.groups(), (count - done + CAST_SIZE - 1) / CAST_SIZE));
-      const CastPush push{static_cast<uint>(done), static_cast<uint>(count)};
-      commands_.begin();
-      commands_.dispatch(*kernel_, bound_, std::as_bytes(std::span(&push, 1)), groups);
-      budget.record(groups, commands_.submit_and_wait());
+      const CastPush push{{}, static_cast<uint>(done), static_cast<uint>(count)};
+      budget.record(groups, queue_.run(commands_, *kernel_, bound_, push, groups, CAST_SIZE));
       done += std::size_t{groups} * CAST_SIZE;
       if (progress) progress(first + std::min(done, count));
     }

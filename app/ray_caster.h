@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/bake.h"
+#include "app/ray_queue.h"
 #include "app/shared.h"
 #include "vk/commands.h"
 
@@ -20,7 +21,8 @@ class RayCaster {
   // kernel: one of kernel_for(device, scene.choice, solver, groups) that several scenes share,
   // `groups` true if has_groups() of any of them; without one the scene's own is compiled.
   RayCaster(const gpu::Device& device, const BakedScene& scene, const TraceParams& params,
-            uint solver, std::shared_ptr<const gpu::Kernel> kernel = nullptr);
+            uint solver, std::shared_ptr<const gpu::Kernel> kernel = nullptr,
+            uint32_t steps = RayQueue::kSteps);
   static std::shared_ptr<const gpu::Kernel> kernel_for(const gpu::Device& device,
                                                        const SurfaceChoice& choice, uint solver,
                                                        bool groups);
@@ -39,6 +41,7 @@ class RayCaster {
   gpu::Buffer cages_;
   gpu::Buffer rays_;
   gpu::Buffer hits_;
+  RayQueue queue_;
   gpu::BoundBuffers bound_;
 };
 

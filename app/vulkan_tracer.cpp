@@ -9,7 +9,6 @@
 
 #include "app/cage.h"
 #include "app/kernels.h"
-#include "app/loop_limit.h"
 #include "vk/result.h"
 
 namespace trisect {
@@ -17,6 +16,10 @@ namespace {
 
 // Bytes moved between host and device at a time.
 constexpr std::size_t kStagingBytes = std::size_t{32} << 20U;
+
+constexpr uint32_t kGroupRays = TILE_SIZE * TILE_SIZE;
+// Of one submit.
+constexpr uint32_t kMostGroups = 4096;
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
@@ -90,8 +93,10 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
           device,
           choice.aovs ? std::size_t{width} * band_rows_ * sizeof(PixelAovs) : sizeof(PixelAovs),
           gpu::Memory::device, "AOVs"),
-      bound_(device, kernel_, {&params_, &triangles_, &colors_, &aovs_buffer_, &cages_}) {
-  expect_loops_to_end(device, scene, choice.solver);
+      queue_(device, kMostGroups * kGroupRays),
+      bound_(device, kernel_,
+             {&params_, &triangles_, &colors_, &aovs_buffer_, &cages_, &queue_.paused(),
+              &queue_.queued()}) {
   const auto start = std::chrono::steady_clock::now();
   staging_.upload(commands_, std::as_bytes(std::span(scene.triangles)), triangles_);
   if (!scene.cages.empty()) {
@@ -137,12 +142,9 @@ double VulkanTracer::render_band(uint32_t first_row, uint32_t rows,
   const uint32_t end = begin + (rows + TILE_SIZE - 1) / TILE_SIZE * groups_x;
   double gpu_ms = 0.0;
   for (uint32_t group = begin; group < end;) {
-    const uint32_t most = device_.limits().maxComputeWorkGroupCount[0];
-    const uint32_t count = std::min({budget_.groups(), end - group, most});
-    const TilePush tile{group, first_row};
-    commands_.begin();
-    commands_.dispatch(kernel_, bound_, std::as_bytes(std::span(&tile, 1)), count);
-    const double ms = commands_.submit_and_wait();
+    const uint32_t count = std::min({budget_.groups(), end - group, kMostGroups});
+    const double ms = queue_.run(commands_, kernel_, bound_, TilePush{{}, group, first_row}, count,
+                                 kGroupRays, between_submits);
     gpu_ms += ms;
     group += count;
     budget_.record(count, ms);

@@ -8,6 +8,7 @@
 #include "app/bake.h"
 #include "app/frame.h"
 #include "app/kernel_choice.h"
+#include "app/ray_queue.h"
 #include "app/shared.h"
 #include "app/submit_budget.h"
 #include "vk/commands.h"
@@ -54,6 +55,7 @@ class VulkanTracer {
   gpu::Buffer cages_;
   gpu::Buffer colors_;
   gpu::Buffer aovs_buffer_;
+  RayQueue queue_;
   gpu::BoundBuffers bound_;
   double upload_ms_ = 0.0;
   SubmitBudget budget_;

@@ -32,6 +32,21 @@ Node parent(Node part, uint k) {
   return node;
 }
 
+// The path to a part itself, and to the first of its smallest nodes.
+const uint WHOLE = 1u;
+const uint SMALLEST = 1u << 18;
+
+// The node of a part, origin + size l of its patch, to which a path leads.
+Node node_at(vec4 part, uint path) {
+  Node node;
+  node.origin = vec3(part);
+  node.size = part.w;
+  int level = 0;
+  while (path >> (2 * level) != WHOLE) ++level;
+  for (int k = level - 1; k >= 0; --k) node = child(node, (path >> (2 * k)) & 3u);
+  return node;
+}
+
 // Blossom of the quadratic q at weights a, b.
 real blossom(vec3 corner, vec3 edge, vec3 a, vec3 b) {
   return corner.x * a.x * b.x + corner.y * a.y * b.y + corner.z * a.z * b.z +

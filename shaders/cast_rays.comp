@@ -24,8 +24,23 @@ layout(std430, binding = BINDING_HITS) writeonly restrict buffer HitsBlock { Cas
 layout(push_constant) uniform PushBlock { CastPush push; };
 
 #include "trace.glsl"
+#include "queue.glsl"
 
 void main() {
-  uint index = push.first + gl_GlobalInvocationID.x;
-  if (index < push.end) hits[index] = cast_ray(rays[index]);
+  uint index = gl_GlobalInvocationID.x;
+  Walk walk = walk_begun(int(push.queue.steps));
+  if (push.queue.pass == 0u) {
+    index += push.first;
+    if (index >= push.end) return;
+  } else {
+    if (index >= push.queue.resumed) return;
+    index = resumed_ray(index, walk);
+  }
+  PixelRay ray = ray_cast(rays[index]);
+  go_on(ray, push.queue.pass, walk);
+  if (is_through(walk)) {
+    hits[index] = hit_cast(ray, walk);
+  } else {
+    pause(index, walk);
+  }
 }

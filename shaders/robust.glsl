@@ -4,7 +4,7 @@
 // of dyadic size, are taken from a quadtree: one whose cage stays clear of the ray is done; one in which the cage
 // allows one root at most (jacobian) is solved by Newton's method, held within the node; where that ends on the
 // node's border without a root, an interval Newton test must prove that there is none. What is not proven is
-// divided. Silhouettes, where a ray grazes a node, are divided MOST_LEVELS times; Newton then starts from every corner.
+// divided. Silhouettes, where a ray grazes a node, are divided nine times; Newton then starts from every corner.
 //
 // After projecting the control points on two planes through the ray the test of the hull is Bezier clipping's
 // (Nishita, Sederberg & Kakimoto 1990); the test of the tangents is Volino & Magnenat-Thalmann's (1994) criterion
@@ -16,11 +16,9 @@ const uint FOUND_ROOT = 0u;
 const uint FOUND_NONE = 1u;
 const uint FOUND_NOTHING = 2u;  // neither a root nor that there is none
 
-// Halvings from a cage to its smallest nodes.
-const int MOST_LEVELS = 9;
-// Nodes that one cage may cost a ray. Only cages that a ray follows along its length come near.
-const int MOST_NODES = 16384;
 const int MOST_STEPS = 10;
+// What the loops of one node take of Walk::steps, beside the evaluations.
+const int VISIT_STEPS = 8;
 // A node is searched with so much around it, in its own weights: no root is lost on the border of two nodes.
 const real OVERLAP = real(0.03125);
 
@@ -197,13 +195,13 @@ void meet_flat(FramedPatch framed, uint triangle, real reach, real nearest, INOU
 
 // The quadratic for a node. That of the cage, but for a linear part that moves it onto the surface at the node's
 // centre, to second order: what it strays from there shrinks with the node.
-Fit cage_fit(Shape shape, Triangle tri, Cage cage, Node node, int level, INOUT(uint) evaluations) {
+Fit cage_fit(Shape shape, Triangle tri, Cage cage, Node node, bool whole, INOUT(uint) evaluations) {
   Fit fit;
   fit.corner = vec3(cage.corner);
   fit.edge = vec3(cage.edge);
   fit.stray = cage.corner.w;
   fit.tangent_stray = cage.edge.w;
-  if (cage.bend == real(0.0) || level == 0) return fit;
+  if (cage.bend == real(0.0) || whole) return fit;
   vec3 c = node.origin + vec3(node.size / real(3.0));
   Displacement sigma = displacement_and_derivatives(shape, tri, c);
   ++evaluations;
@@ -224,22 +222,20 @@ Fit cage_fit(Shape shape, Triangle tri, Cage cage, Node node, int level, INOUT(u
   return fit;
 }
 
-// Roots of a ray in one part of a patch; the nearest beyond `nearest` that is before `hit` becomes `hit`.
-void meet_part(Shape shape, Triangle tri, Cage cage, RayFrame frame, real nearest, INOUT(Hit) hit,
-               INOUT(Counts) counts) {
+// Roots of a ray in one part of a patch, from the node walk.path on; the nearest beyond `nearest` that is before
+// walk.hit becomes it. walk.path is WHOLE again at the end, or else where the steps ended.
+void meet_part(Shape shape, Triangle tri, Cage cage, RayFrame frame, real nearest, INOUT(Walk) walk) {
   FramedPatch framed = framed_patch(frame, shape.shell, tri);
   real reach = grain(frame, tri);
-  Node node;
-  node.origin = vec3(cage.node);
-  node.size = cage.node.w;
   if (cage.flat_part == 1u) {
-    meet_flat(framed, cage.triangle, reach, nearest, hit);
+    meet_flat(framed, cage.triangle, reach, nearest, walk.hit);
     return;
   }
-  int level = 0;
-  uint path = 0u;
-  for (int visits = 0; visits < MOST_NODES; ++visits) {
-    Fit fit = cage_fit(shape, tri, cage, node, level, counts.evaluations);
+  Node node = node_at(cage.node, walk.path);
+  do {
+    uint evaluations = walk.counts.evaluations;
+    bool last = walk.path >= SMALLEST;
+    Fit fit = cage_fit(shape, tri, cage, node, walk.path == WHOLE, walk.counts.evaluations);
     Node wide = widened(node);
     Net net = cage_net(framed, fit.corner, fit.edge, wide);
     bool divide = false;
@@ -248,7 +244,6 @@ void meet_part(Shape shape, Triangle tri, Cage cage, RayFrame frame, real neares
       real stray = fit.tangent_stray * abs(wide.size) / real(3.0);
       Range det = jacobian(t, stray);
       bool certified = det.low > real(0.0) || det.high < real(0.0);
-      bool last = level == MOST_LEVELS;
       divide = !certified && !last;
       int starts = divide ? 0 : certified ? 1 : 3;
       vec3 start = certified ? flat_guess(net) : vec3(1.0, 0.0, 0.0);
@@ -256,26 +251,27 @@ void meet_part(Shape shape, Triangle tri, Cage cage, RayFrame frame, real neares
         real z;
         vec3 weights;
         uint found = newton(shape, tri, framed, wide, t, det, stray, certified, reach, start, z, weights,
-                            counts.evaluations);
-        if (found == FOUND_ROOT) keep_nearest(z, weights, cage.triangle, nearest, hit);
+                            walk.counts.evaluations);
+        if (found == FOUND_ROOT) keep_nearest(z, weights, cage.triangle, nearest, walk.hit);
         divide = certified && found == FOUND_NOTHING && !last;
         start = vec3(start.z, start.x, start.y);
       }
     }
+    walk.steps -= VISIT_STEPS + int(walk.counts.evaluations - evaluations);
     if (divide) {
       node = child(node, 0u);
-      path = path << 2;
-      ++level;
-      continue;
+      walk.path = walk.path << 2;
+    } else {
+      // On to the next sibling, or that of the nearest ancestor that has one.
+      while ((walk.path & 3u) == 3u) {
+        node = parent(node, 3u);
+        walk.path = walk.path >> 2;
+        --walk.steps;
+      }
+      if (walk.path != WHOLE) {
+        node = child(parent(node, walk.path & 3u), (walk.path & 3u) + 1u);
+        ++walk.path;
+      }
     }
-    // On to the next sibling, or that of the nearest ancestor that has one.
-    while (level > 0 && (path & 3u) == 3u) {
-      node = parent(node, 3u);
-      path = path >> 2;
-      --level;
-    }
-    if (level == 0) return;
-    node = child(parent(node, path & 3u), (path & 3u) + 1u);
-    ++path;
-  }
+  } while (walk.path != WHOLE && walk.steps > 0);
 }

@@ -59,9 +59,34 @@ struct TraceParams {
   uint cage_count;
 };
 
-// What one submit covers: workgroups first_group, first_group + 1, ... in raster order, of an image
-// whose row first_row is the first one that the output buffers hold.
+// A kernel ends a ray's walk through the list after so many steps, through or not, and queues what
+// is left of it for the next submit: a device may not be kept too long, and llvmpipe ends all loops
+// of a subgroup after 65535 iterations without saying so.
+struct PausedRay {
+  vec4 hit;  // the nearest root so far: xyz: weights; w: its place along the ray
+  uint triangle;
+  uint ray;   // pixel of the image in raster order, or index of a cast ray
+  uint item;  // of the list, with which it goes on
+  uint path;  // in a part, the node with which it goes on
+  uint evaluations;
+  uint candidates;
+  uint padding0;
+  uint padding1;
+};
+
+// What a submit goes on with.
+struct QueuePush {
+  uint pass;     // how many submits these rays have been through
+  uint steps;    // after which a ray pauses
+  uint resumed;  // so many paused rays, from the second pass on
+  uint from;     // index of the first of them in the queue
+  uint to;       // index in the queue for the first that pauses again
+};
+
+// What one submit of new rays covers: workgroups first_group, first_group + 1, ... in raster order,
+// of an image whose row first_row is the first one that the output buffers hold.
 struct TilePush {
+  QueuePush queue;
   uint first_group;
   uint first_row;
 };
@@ -95,8 +120,9 @@ struct CastHit {
   uint padding1;
 };
 
-// Which rays of a buffer a submit covers.
+// Which rays of a buffer a submit of new rays covers.
 struct CastPush {
+  QueuePush queue;
   uint first;
   uint end;
 };
@@ -129,6 +155,8 @@ const uint SOLVER_ROBUST = 1u;
 #define BINDING_CAGES 4
 #define BINDING_RAYS 5
 #define BINDING_HITS 6
+#define BINDING_QUEUE 7
+#define BINDING_QUEUED 8
 
 // Specialisation constants.
 #define CONSTANT_SURFACE 0

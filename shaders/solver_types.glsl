@@ -86,3 +86,12 @@ struct Counts {
   uint evaluations;
   uint candidates;
 };
+
+// How far a ray has come through the list, of cages or of triangles.
+struct Walk {
+  Hit hit;
+  Counts counts;
+  uint item;  // of the list, the next
+  uint path;  // of nodes within it, the next: WHOLE, or 4 p + k for child k of node p
+  int steps;  // that are left until it pauses: no loop iteration is begun without one
+};

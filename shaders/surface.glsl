@@ -150,7 +150,8 @@ real sphere_derivative(vec3 T, vec3 dT, vec3 D, vec3 dD, real s, vec3 vertex, ve
   real discriminant = B * B - A * C;
   if (discriminant <= real(0.0)) return -(dC + s * dB) / B;
   // A s^2 + 2 B s + C = 0, differentiated; A s + B is the square root of the discriminant with B's sign.
-  return -(dA * s * s + real(2.0) * dB * s + dC) / (real(2.0) * (A * s + B));
+  // By Horner's rule, into which Mesa would turn any other order.
+  return -((dA * s + real(2.0) * dB) * s + dC) / (real(2.0) * (A * s + B));
 }
 
 Displacement displacement_and_derivatives(Shape shape, Triangle tri, vec3 w) {

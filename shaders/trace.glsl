@@ -42,10 +42,34 @@ Shape scene_shape() {
   return shape;
 }
 
-// The thesis's loop. hit.z is the distance from the eye.
-void trace_bisect(PixelRay ray, INOUT(Hit) hit, INOUT(Counts) counts) {
-  real cdepth = ray.far_depth;
-  for (uint t = 0u; t < params.triangle_count; ++t) {
+// Iterations of the loops of walk_bisect in one pass.
+const uint BISECT_STEPS = 65000u;
+
+// A walk through nothing yet.
+Walk walk_begun(int steps) {
+  Walk walk;
+  walk.hit.z = real(1e30);
+  walk.hit.weights = vec3(0.0);
+  walk.hit.triangle = NO_TRIANGLE;
+  walk.counts.evaluations = 0u;
+  walk.counts.candidates = 0u;
+  walk.item = 0u;
+  walk.path = WHOLE;
+  walk.steps = steps;
+  return walk;
+}
+
+bool is_through(Walk walk) {
+  return walk.item >= (SOLVER == SOLVER_ROBUST ? params.cage_count : params.triangle_count);
+}
+
+// The thesis's loop. hit.z counts from the near point. All rays take the same triangles at the same time, as many
+// in each pass as their loops' iterations allow: drivers load faster what does not differ from ray to ray.
+void walk_bisect(PixelRay ray, uint pass, INOUT(Walk) walk) {
+  uint share = BISECT_STEPS / (params.rank + 4u);
+  uint end = min((pass + 1u) * share, params.triangle_count);
+  for (uint t = pass * share; t < end; ++t) {
+    real cdepth = min(walk.hit.z, ray.far_depth);
     real depth;
     vec3 weights;
     if (SURFACE == SURFACE_FLAT) {
@@ -55,87 +79,94 @@ void trace_bisect(PixelRay ray, INOUT(Hit) hit, INOUT(Counts) counts) {
       vec2 bounds = rsi(ray.near_point - vec3(domain), ray.view, domain.w);
       if (!chord_ahead(bounds)) continue;
       if (COUNTS) {
-        ++counts.candidates;
-        counts.evaluations += params.rank - 1u;
+        ++walk.counts.candidates;
+        walk.counts.evaluations += params.rank - 1u;
       }
       if (!bisect(scene_shape(), triangles[t], bounds, ray.near_point, ray.view, int(params.rank),
                   params.resolution, params.min_delta, cdepth, depth, weights))
         continue;
     }
-    cdepth = depth;
-    hit.z = ray.near_distance + depth;
-    hit.weights = weights;
-    hit.triangle = t;
+    walk.hit.z = depth;
+    walk.hit.weights = weights;
+    walk.hit.triangle = t;
   }
+  walk.item = end;
 }
 
-// Every part of every patch whose ball the ray meets; of a divided patch the parts stand in a tree, depth first. hit.z is the distance from the eye.
-void trace_robust(PixelRay ray, INOUT(Hit) hit, INOUT(Counts) counts) {
+// Every part of every patch whose ball the ray meets; of a divided patch the parts stand in a tree, depth first.
+// hit.z counts from the anchor.
+void walk_robust(PixelRay ray, INOUT(Walk) walk) {
   RayFrame frame = ray_frame(ray.anchor, ray.view);
   real nearest = ray.near_distance - (ray.axis + ray.beyond_axis);
-  hit.z = real(1e30);
-  uint c = 0u;
-  while (c < params.cage_count) {
+  while (walk.item < params.cage_count && walk.steps > 0) {
     // Cages that the ray passes by are passed in a loop of their own: a loop that holds the search below would go
     // through all of it, masked, for each of them.
     bool met = false;
-    while (c < params.cage_count && !met) {
-      vec4 ball = cages[c].ball;
+    while (walk.item < params.cage_count && walk.steps > 0 && !met) {
+      --walk.steps;
+      vec4 ball = cages[walk.item].ball;
       vec3 center = vec3(ball) - ray.anchor;
       real z = dot3(center, ray.view);
       real size = dot3(center, center);
       // The distance of the centre from the ray against the radius; the roundings of `size` may add to it.
       bool beside = size - z * z > ball.w * ball.w + real(5e-7) * size || z + ball.w < nearest ||
-                    z - ball.w > hit.z;
+                    z - ball.w > walk.hit.z;
       if (beside) {
-        c += GROUPS ? cages[c].skip + 1u : 1u;
+        walk.item += GROUPS ? cages[walk.item].skip + 1u : 1u;
+        walk.path = WHOLE;
       } else {
-        met = !GROUPS || cages[c].skip == 0u;
-        if (!met) ++c;
+        met = !GROUPS || cages[walk.item].skip == 0u;
+        if (!met) ++walk.item;
       }
     }
     if (met) {
-      if (COUNTS) ++counts.candidates;
-      meet_part(scene_shape(), triangles[cages[c].triangle], cages[c], frame, nearest, hit, counts);
-      ++c;
+      if (COUNTS && walk.path == WHOLE) ++walk.counts.candidates;
+      meet_part(scene_shape(), triangles[cages[walk.item].triangle], cages[walk.item], frame, nearest, walk);
+      if (walk.path == WHOLE) ++walk.item;
     }
+    walk.steps -= VISIT_STEPS;
   }
-  hit.z = ray.axis + (ray.beyond_axis + hit.z);
 }
 
-void trace_ray(PixelRay ray, OUT(Hit) hit, OUT(Counts) counts) {
-  hit.z = real(0.0);
-  hit.weights = vec3(0.0);
-  hit.triangle = NO_TRIANGLE;
-  counts.evaluations = 0u;
-  counts.candidates = 0u;
+// Goes on, for the pass-th time, until the walk is through or the steps of a pass are used.
+void go_on(PixelRay ray, uint pass, INOUT(Walk) walk) {
   if (SOLVER == SOLVER_ROBUST) {
-    trace_robust(ray, hit, counts);
+    walk_robust(ray, walk);
   } else {
-    trace_bisect(ray, hit, counts);
+    walk_bisect(ray, pass, walk);
   }
 }
 
-CastHit cast_ray(CastRay asked) {
+// What a walk that is through has met, its z the distance from the eye.
+Hit met_by(PixelRay ray, Walk walk) {
+  Hit hit = walk.hit;
+  hit.z = SOLVER == SOLVER_ROBUST ? ray.axis + (ray.beyond_axis + hit.z) : ray.near_distance + hit.z;
+  return hit;
+}
+
+PixelRay ray_cast(CastRay asked) {
   PixelRay ray;
-  ray.near_point = vec3(asked.anchor);
+  ray.near_point = vec3(asked.anchor) + vec3(asked.direction) * asked.anchor.w;
   ray.view = vec3(asked.direction);
   ray.anchor = vec3(asked.anchor);
   ray.near_distance = asked.anchor.w;
   ray.far_depth = real(1e30);
   ray.axis = real(0.0);
   ray.beyond_axis = real(0.0);
-  Hit hit;
-  Counts counts;
-  trace_ray(ray, hit, counts);
+  return ray;
+}
+
+// The output of a cast ray whose walk is through.
+CastHit hit_cast(PixelRay ray, Walk walk) {
+  Hit hit = met_by(ray, walk);
   bool met = hit.triangle != NO_TRIANGLE;
   CastHit result;
   result.z = met ? hit.z : real(0.0);
   result.u = hit.weights.y;
   result.v = hit.weights.z;
   result.triangle = hit.triangle;
-  result.evaluations = counts.evaluations;
-  result.candidates = counts.candidates;
+  result.evaluations = walk.counts.evaluations;
+  result.candidates = walk.counts.candidates;
   result.padding0 = 0u;
   result.padding1 = 0u;
   return result;
@@ -164,12 +195,9 @@ void shade_pixel(PixelRay ray, Hit hit, OUT(vec4) color, OUT(PixelAovs) aovs) {
   }
 }
 
-void trace_pixel(uvec2 pixel, OUT(vec4) color, OUT(PixelAovs) aovs) {
-  PixelRay ray = pixel_ray(pixel);
-  Hit hit;
-  Counts counts;
-  trace_ray(ray, hit, counts);
-  shade_pixel(ray, hit, color, aovs);
-  aovs.evaluations = counts.evaluations;
-  aovs.candidates = counts.candidates;
+// The outputs of a pixel whose walk is through.
+void finish_pixel(PixelRay ray, Walk walk, OUT(vec4) color, OUT(PixelAovs) aovs) {
+  shade_pixel(ray, met_by(ray, walk), color, aovs);
+  aovs.evaluations = walk.counts.evaluations;
+  aovs.candidates = walk.counts.candidates;
 }

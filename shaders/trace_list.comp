@@ -21,19 +21,40 @@ layout(std430, binding = BINDING_TRIANGLES) readonly restrict buffer TrianglesBl
 layout(std430, binding = BINDING_CAGES) readonly restrict buffer CagesBlock { Cage cages[]; };
 layout(std430, binding = BINDING_COLOR) writeonly restrict buffer ColorBlock { vec4 colors[]; };
 layout(std430, binding = BINDING_AOVS) writeonly restrict buffer AovsBlock { PixelAovs pixels[]; };
-layout(push_constant) uniform PushBlock { TilePush tile; };
+layout(push_constant) uniform PushBlock { TilePush push; };
 
 #include "trace.glsl"
+#include "queue.glsl"
+
+// The pixel of an invocation that begins one; outside of the image, if the image ends before its workgroup does.
+uvec2 new_pixel() {
+  uint groups_x = (params.width + TILE_SIZE - 1u) / TILE_SIZE;
+  uint group = push.first_group + gl_WorkGroupID.x;
+  return uvec2(group % groups_x, group / groups_x) * TILE_SIZE + gl_LocalInvocationID.xy;
+}
 
 void main() {
-  uint groups_x = (params.width + TILE_SIZE - 1u) / TILE_SIZE;
-  uint group = tile.first_group + gl_WorkGroupID.x;
-  uvec2 pixel = uvec2(group % groups_x, group / groups_x) * TILE_SIZE + gl_LocalInvocationID.xy;
-  if (pixel.x >= params.width || pixel.y >= params.height) return;
-  uint index = (pixel.y - tile.first_row) * params.width + pixel.x;
+  Walk walk = walk_begun(int(push.queue.steps));
+  uvec2 pixel;
+  if (push.queue.pass == 0u) {
+    pixel = new_pixel();
+    if (pixel.x >= params.width || pixel.y >= params.height) return;
+  } else {
+    uint invocation = gl_WorkGroupID.x * TILE_SIZE * TILE_SIZE + gl_LocalInvocationIndex;
+    if (invocation >= push.queue.resumed) return;
+    uint index = resumed_ray(invocation, walk);
+    pixel = uvec2(index % params.width, index / params.width);
+  }
+  PixelRay ray = pixel_ray(pixel);
+  go_on(ray, push.queue.pass, walk);
+  if (!is_through(walk)) {
+    pause(pixel.y * params.width + pixel.x, walk);
+    return;
+  }
   vec4 color;
   PixelAovs aovs;
-  trace_pixel(pixel, color, aovs);
+  finish_pixel(ray, walk, color, aovs);
+  uint index = (pixel.y - push.first_row) * params.width + pixel.x;
   colors[index] = color;
   if (AOVS) pixels[index] = aovs;
 }

@@ -102,7 +102,8 @@ TEST_F(GpuLayer, ChecksWhatADispatchIsGiven) {
   const Kernel kernel(device, kTraceListSpirv, trace_list_interface(), {}, "trace_list");
   const Buffer buffer(device, 1024, Memory::device, "scratch");
   EXPECT_THROW(BoundBuffers(device, kernel, {&buffer}), std::logic_error);
-  const BoundBuffers bound(device, kernel, {&buffer, &buffer, &buffer, &buffer, &buffer});
+  const BoundBuffers bound(
+      device, kernel, std::vector<const Buffer*>(trace_list_interface().bindings.size(), &buffer));
   Commands commands(device);
   commands.begin();
   EXPECT_THROW(commands.dispatch(kernel, bound, {}, 1), std::logic_error);

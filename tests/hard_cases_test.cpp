@@ -21,12 +21,6 @@ using glm::dvec3;
 
 class HardCases : public test::GpuTest {};
 
-// The one row in which the robust solver still fails: spheres that the shell's lines miss leave a
-// surface with kinks, and a ray that grazes it takes the wrong root.
-bool is_known_to_fail(const HardRow& row) {
-  return row.name == "missed-sphere" && row.surface == SURFACE_SPHERE;
-}
-
 TEST_F(HardCases, NamesAreDistinct) {
   std::set<std::string> names;
   for (const RayCase& hard : hard_ray_catalogue()) EXPECT_TRUE(names.insert(hard.name).second);
@@ -39,7 +33,7 @@ TEST_F(HardCases, TheRobustSolverPassesThem) {
   for (const RayCase& hard : hard_ray_catalogue()) {
     for (const uint surface : hard.surfaces) {
       const HardRow row = run_robust_row(hard, surface, backend);
-      EXPECT_EQ(row.verdict, is_known_to_fail(row) ? "FAIL" : "pass")
+      EXPECT_EQ(row.verdict, "pass")
           << row.name << " on surface " << surface << ": " << row.outcome.wrong << " wrong, "
           << row.outcome.missed << " missed, " << row.outcome.nans << " NaNs, largest error "
           << row.error_ulp(1.0) << " ulp";

@@ -107,6 +107,23 @@ TEST(Layout, TraceParams) {
                                    {"cage_count", offsetof(TraceParams, cage_count)}}));
 }
 
+TEST(Layout, PausedRay) {
+  const Compiler compiler = reflect();
+  const auto resources = compiler.get_shader_resources();
+  const Held held =
+      held_by(compiler, with_binding(compiler, resources.storage_buffers, BINDING_QUEUE));
+  EXPECT_EQ(held.stride, sizeof(PausedRay));
+  EXPECT_EQ(held.offsets, (Offsets{{"hit", offsetof(PausedRay, hit)},
+                                   {"triangle", offsetof(PausedRay, triangle)},
+                                   {"ray", offsetof(PausedRay, ray)},
+                                   {"item", offsetof(PausedRay, item)},
+                                   {"path", offsetof(PausedRay, path)},
+                                   {"evaluations", offsetof(PausedRay, evaluations)},
+                                   {"candidates", offsetof(PausedRay, candidates)},
+                                   {"padding0", offsetof(PausedRay, padding0)},
+                                   {"padding1", offsetof(PausedRay, padding1)}}));
+}
+
 TEST(Layout, OutputsAndPushConstants) {
   const Compiler compiler = reflect();
   const auto resources = compiler.get_shader_resources();
@@ -125,7 +142,8 @@ TEST(Layout, OutputsAndPushConstants) {
   ASSERT_EQ(resources.push_constant_buffers.size(), 1U);
   const Held push = held_by(compiler, resources.push_constant_buffers[0]);
   EXPECT_EQ(push.stride, sizeof(TilePush));
-  EXPECT_EQ(push.offsets, (Offsets{{"first_group", offsetof(TilePush, first_group)},
+  EXPECT_EQ(push.offsets, (Offsets{{"queue", offsetof(TilePush, queue)},
+                                   {"first_group", offsetof(TilePush, first_group)},
                                    {"first_row", offsetof(TilePush, first_row)}}));
 }
 

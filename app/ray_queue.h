@@ -1,0 +1,53 @@
+// Walks that outlast a submit: their rays pause in a queue, and further submits go on with them.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <span>
+
+#include "app/shared.h"
+#include "vk/commands.h"
+
+namespace trisect {
+
+class RayQueue {
+ public:
+  // For submits of at most `rays` new rays. Takes 96 bytes for each. steps: of a ray in one submit;
+  // fewer than kSteps to test it.
+  RayQueue(const gpu::Device& device, uint32_t rays, uint32_t steps = kSteps);
+
+  // What kernels bind as BINDING_QUEUE and BINDING_QUEUED.
+  [[nodiscard]] const gpu::Buffer& paused() const { return paused_; }
+  [[nodiscard]] const gpu::Buffer& queued() const { return queued_; }
+
+  // Runs `groups` workgroups of `group_rays` invocations, each with a new ray, then submits what
+  // paused until nothing is left. Push: a structure of shared.h with a member `queue`, which is set
+  // here. between_submits, if set, is called between any two. Returns milliseconds on the device.
+  template <typename Push>
+  double run(gpu::Commands& commands, const gpu::Kernel& kernel, const gpu::BoundBuffers& bound,
+             Push push, uint32_t groups, uint32_t group_rays,
+             const std::function<void()>& between_submits = {}) {
+    return run_all(commands, kernel, bound, groups, group_rays, between_submits,
+                   [&push](const QueuePush& queue) {
+                     push.queue = queue;
+                     return std::as_bytes(std::span<const Push>(&push, 1));
+                   });
+  }
+
+  // llvmpipe ends all loops of a subgroup, of at most 16 rays, after 65535 iterations.
+  static constexpr uint32_t kSteps = 4000;
+
+ private:
+  using PushBytes = std::function<std::span<const std::byte>(const QueuePush&)>;
+  double run_all(gpu::Commands& commands, const gpu::Kernel& kernel, const gpu::BoundBuffers& bound,
+                 uint32_t groups, uint32_t group_rays, const std::function<void()>& between_submits,
+                 const PushBytes& push_bytes);
+
+  uint32_t rays_;
+  uint32_t steps_;
+  gpu::Buffer paused_;  // in two halves: one is read while the other is filled
+  gpu::Buffer queued_;  // how many of the half that is filled are in use
+};
+
+}  // namespace trisect

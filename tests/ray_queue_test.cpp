@@ -1,0 +1,59 @@
+// Rays that pause, however often, meet what they would have met at one go.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <random>
+
+#include "app/cage.h"
+#include "app/hard_scenes.h"
+#include "app/ray_caster.h"
+#include "tests/support/gpu.h"
+#include "tests/support/scenes.h"
+
+namespace trisect {
+namespace {
+
+class Queue : public test::GpuTest {};
+
+std::vector<CastHit> cast(const BakedScene& scene, const TraceSettings& settings,
+                          const std::vector<CastRay>& rays, uint32_t steps) {
+  return RayCaster(test::validated_device(), scene, make_params(scene, settings), settings.solver,
+                   nullptr, steps)
+      .cast(rays);
+}
+
+TEST_F(Queue, PausesLoseNothing) {
+  // Patches that are divided deep (nodes are paused in), groups of cages that are skipped.
+  const Mesh mesh = test::load_asset("sphere-20");
+  BakedScene scene = bake(mesh, {SURFACE_PHONG, 0.65, SHELL_HEIGHT});
+  scene.cages = bake_cages(scene);
+  ASSERT_TRUE(has_groups(scene));
+  TraceSettings settings = test::framed(mesh, scene, 8, 8, 10);
+  settings.solver = SOLVER_ROBUST;
+  std::mt19937_64 random(5);
+  const std::vector<CastRay> rays = hard::rays_at_surface(scene, random, 500);
+  const std::vector<CastHit> expected = cast(scene, settings, rays, RayQueue::kSteps);
+  for (const uint32_t steps : {1U, 37U}) {
+    const std::vector<CastHit> hits = cast(scene, settings, rays, steps);
+    ASSERT_EQ(hits.size(), expected.size());
+    EXPECT_EQ(std::memcmp(hits.data(), expected.data(), hits.size() * sizeof(CastHit)), 0) << steps;
+  }
+}
+
+TEST_F(Queue, TheBisectionSeesEveryTriangleOnceInSeveralPasses) {
+  // At rank 60 a pass takes 1015 triangles: here are two passes.
+  const Mesh mesh = hard::sphere(3);
+  const BakedScene scene = bake(mesh, {SURFACE_FLAT, 0.0});
+  ASSERT_EQ(scene.triangles.size(), 1280U);
+  TraceSettings settings = test::framed(mesh, scene, 8, 8, 60);
+  std::vector<CastRay> rays;
+  for (uint32_t t = 0; t < scene.triangles.size(); ++t) {
+    const hard::SurfacePoint middle = hard::point_at(scene, t, glm::dvec3(1.0 / 3.0));
+    rays.push_back(hard::ray_through(scene, middle.position, -middle.normal));
+  }
+  const std::vector<CastHit> hits = cast(scene, settings, rays, RayQueue::kSteps);
+  for (uint32_t t = 0; t < hits.size(); ++t) EXPECT_EQ(hits[t].triangle, t);
+}
+
+}  // namespace
+}  // namespace trisect
