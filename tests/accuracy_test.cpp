@@ -105,10 +105,13 @@ TEST_F(Robust, SphereIsMetOnTheSphere) {
 }
 
 TEST_F(Robust, TheCpuHasTheSameBits) {
-  for (const uint shell : {SHELL_NORMAL, SHELL_HEIGHT}) {
+  for (const auto& [surface, shell] : {std::pair{SURFACE_PHONG, SHELL_NORMAL},
+                                       {SURFACE_PHONG, SHELL_HEIGHT},
+                                       {SURFACE_SPHERE, SHELL_NORMAL},
+                                       {SURFACE_SPHERE, SHELL_HEIGHT}}) {
     for (const char* asset : {"sphere-20", "torus", "relief", "saddle", "cube"}) {
       const Mesh mesh = test::load_asset(asset);
-      BakedScene scene = bake(mesh, {SURFACE_PHONG, 0.65, shell});
+      BakedScene scene = bake(mesh, {surface, 0.65, shell});
       scene.cages = bake_cages(scene);
       const TraceSettings settings = robust(mesh, scene);
       const Frame gpu = test::trace(scene, settings);
