@@ -1,9 +1,8 @@
 #include "app/accuracy.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
+#include <vector>
 
 #include "app/oracle_tracer.h"
 
@@ -11,15 +10,6 @@ namespace trisect {
 namespace {
 
 using glm::dvec3;
-
-double ulp_of(float x) {
-  return static_cast<double>(std::nextafter(std::abs(x), std::numeric_limits<float>::infinity())) -
-         static_cast<double>(std::abs(x));
-}
-
-double degrees_between(const dvec3& a, const dvec3& b) {
-  return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
-}
 
 bool has_nan(const vec4& color, const PixelAovs& aov) {
   return glm::any(glm::isnan(color)) || glm::any(glm::isnan(aov.normal_z)) ||
@@ -34,13 +24,6 @@ struct Errors {
 };
 
 }  // namespace
-
-Quantiles quantiles_of(std::vector<double> values) {
-  if (values.empty()) return {};
-  std::sort(values.begin(), values.end());
-  const std::size_t last = values.size() - 1;
-  return {values[last / 2], values[(last * 99 + 99) / 100], values[last]};
-}
 
 Accuracy accuracy_of(const Frame& frame, const OracleFrame& truth, const BakedScene& scene,
                      const TraceParams& params) {

@@ -2,23 +2,14 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include "app/bake.h"
 #include "app/frame.h"
 #include "app/oracle.h"
+#include "app/quantiles.h"
 #include "app/shared.h"
 
 namespace trisect {
-
-// Of a sample: the middle one, the one that 1% exceed, the largest. 0 for an empty sample.
-struct Quantiles {
-  double p50 = 0.0;
-  double p99 = 0.0;
-  double max = 0.0;
-};
-
-Quantiles quantiles_of(std::vector<double> values);
 
 // All but `undecidable` is about decidable pixels only.
 struct Accuracy {

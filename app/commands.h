@@ -15,6 +15,14 @@ int accuracy(const AccuracyOptions& options);
 // Measures the solvers on the catalogue of hard cases and prints the table; returns an exit code.
 int hardcases(const HardcasesOptions& options);
 
+// Renders with each back end and compares every pair; returns exit_different if one is farther
+// apart than tolerance_between() allows.
+int crosscheck(const CrosscheckOptions& options);
+Tolerance tolerance_between(Backend a, Backend b, GlPath gl_path);
+
+// Compares two image files; returns exit_different if they are farther apart than asked for.
+int compare_images(const CompareOptions& options);
+
 // Lists the Vulkan devices; returns an exit code.
 int list_devices();
 

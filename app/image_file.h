@@ -16,6 +16,9 @@ ImageFormat image_format(const std::filesystem::path& path);
 // One sRGB-encoded component as linear light (IEC 61966-2-1).
 float linear_from_srgb(float encoded);
 
+// And back.
+float srgb_from_linear(float linear);
+
 // Writes 8-bit sRGB. Throws InputError, naming the file.
 void write_png(const Frame& frame, const AtomicFile& file);
 

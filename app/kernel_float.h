@@ -13,6 +13,7 @@ namespace trisect::in_float {
 using namespace glm;  // NOLINT(google-build-using-namespace): GLSL's own function names
 
 #define real float
+#define EXACT
 #define OUT(T) T&
 #define INOUT(T) T&
 #include "shaders/shape.glsl"
@@ -44,6 +45,7 @@ struct Kernel {
 };
 
 #undef real
+#undef EXACT
 #undef OUT
 #undef INOUT
 

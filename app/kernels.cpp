@@ -8,12 +8,20 @@ namespace {
 // Written at build time: arrays of SPIR-V words.
 #include "cast_rays.spv.h"
 #include "trace_list.spv.h"
+// Strings of GLSL.
+#include "full_screen.vert.glsl.h"
+#include "trace_list.comp.glsl.h"
+#include "trace_list.frag.glsl.h"
 
 }  // namespace
 
 const std::span<const uint32_t> kTraceListSpirv(trace_list_spirv);
 
 const std::span<const uint32_t> kCastRaysSpirv(cast_rays_spirv);
+
+const char* const kTraceListComp = trace_list_comp_glsl;
+const char* const kTraceListFrag = trace_list_frag_glsl;
+const char* const kFullScreenVert = full_screen_vert_glsl;
 
 gpu::KernelInterface trace_list_interface() {
   return {{{BINDING_PARAMS, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},

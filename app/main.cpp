@@ -30,6 +30,7 @@ int fail(int code, const std::string& message) {
 struct RenderText {
   std::string surface;
   std::optional<std::string> backend;
+  std::optional<std::string> gl_path;
   std::optional<std::string> preset;
   std::optional<std::string> shell;
   std::optional<std::string> solver;
@@ -68,76 +69,91 @@ CLI::Validator one_of(const std::vector<std::string>& names) {
       "");
 }
 
-void add_render(CLI::App& app, RenderOptions& options, RenderText& text) {
-  CLI::App* render = app.add_subcommand("render", "Render a model to an image file");
+void add_gl_path(CLI::App& command, std::optional<std::string>& text) {
+  command
+      .add_option("--gl-path", text,
+                  "How OpenGL traces: compute (Vulkan's kernel) or fragment (the thesis's "
+                  "full-screen quad), default compute")
+      ->check(one_of({"compute", "fragment"}))
+      ->type_name("NAME");
+}
+
+// What is rendered, from where and how: of `render` and `crosscheck`.
+void add_scene(CLI::App* command, RenderOptions& options, RenderText& text) {
   // Of an option that is given twice the last one counts.
-  render->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-  render->add_option("MODEL", options.model, "OBJ file")->required();
-  render
-      ->add_option("-o,--output", options.output,
-                   "Image to write: .png (8-bit sRGB) or .exr (linear float, with AOVs)")
-      ->required()
-      ->type_name("FILE");
-  render->add_option("--size", text.size, "Image size in pixels, default 800x600")
+  command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  command->add_option("MODEL", options.model, "OBJ file")->required();
+  command->add_option("--size", text.size, "Image size in pixels, default 800x600")
       ->type_name("WxH");
-  render
+  command
       ->add_option("--surface", text.surface,
                    "How triangles are curved: flat, phong or sphere, default phong")
       ->check(one_of({"flat", "phong", "sphere"}))
       ->type_name("NAME");
-  render
+  command
       ->add_option("--alpha", options.alpha,
                    "phong: from 0 (flat) to 1 (full projection) and beyond, default 0.65")
       ->check(number_from_to(-1000.0, 1000.0))
       ->type_name("A");
-  render
+  command
       ->add_option("--shell", text.shell,
                    "Along what they are displaced: normal (watertight) or height (the thesis's), "
                    "default normal")
       ->check(one_of({"normal", "height"}))
       ->type_name("NAME");
-  render
+  command
       ->add_option("--solver", text.solver,
                    "How roots are found: robust (the first one, surely) or bisect (the thesis's), "
                    "default robust")
       ->check(one_of({"robust", "bisect"}))
       ->type_name("NAME");
-  render
+  command
       ->add_option("--preset", text.preset,
                    "thesis: --shell height --solver bisect --rank 10, but for what is given beside")
       ->check(one_of({"thesis"}))
       ->type_name("NAME");
-  render
+  command
       ->add_option("--rank", options.rank,
                    "bisect: resolves a triangle's chord to 2^-N, 1 to 60, default 10")
       ->check(number_from_to(1, 60))
       ->type_name("N");
-  render->add_option("--eye", text.eye, "Position of the camera, default: frames the model")
+  command->add_option("--eye", text.eye, "Position of the camera, default: frames the model")
       ->type_name("X,Y,Z");
-  render->add_option("--target", text.target, "Point it looks at, default: the model's centre")
+  command->add_option("--target", text.target, "Point it looks at, default: the model's centre")
       ->type_name("X,Y,Z");
-  render->add_option("--up", text.up, "Its up vector, default 0,1,0")->type_name("X,Y,Z");
-  render
+  command->add_option("--up", text.up, "Its up vector, default 0,1,0")->type_name("X,Y,Z");
+  command
       ->add_option("--fov", options.fov,
                    "Its vertical field of view in degrees, 1 to 170, default 45")
       ->check(number_from_to(1.0, 170.0))
       ->type_name("DEG");
-  render
+  command
       ->add_option("--crease", options.crease,
                    "Rebuild the normals, sharp where faces meet at more than this angle, 0 to 180")
       ->check(number_from_to(0.0, 180.0))
       ->type_name("DEG");
-  render
-      ->add_option("--backend", text.backend,
-                   "Who traces: vulkan, cpu (the same kernel as C++) or oracle (double precision, "
-                   "slow), default vulkan")
-      ->check(one_of({"vulkan", "cpu", "oracle"}))
-      ->type_name("NAME");
-  render
+  add_gl_path(*command, text.gl_path);
+  command
       ->add_option("--device", options.device,
                    "Vulkan device: its number in `trisect devices` or a part of its name")
       ->check(not_empty())
       ->type_name("D");
+}
+
+void add_render(CLI::App& app, RenderOptions& options, RenderText& text) {
+  CLI::App* render = app.add_subcommand("render", "Render a model to an image file");
+  add_scene(render, options, text);
+  render
+      ->add_option("-o,--output", options.output,
+                   "Image to write: .png (8-bit sRGB) or .exr (linear float, with AOVs)")
+      ->required()
+      ->type_name("FILE");
+  render
+      ->add_option("--backend", text.backend,
+                   "Who traces: vulkan, opengl, cpu (the same kernel as C++) or oracle (double "
+                   "precision, slow), default vulkan")
+      ->check(one_of({"vulkan", "opengl", "cpu", "oracle"}))
+      ->type_name("NAME");
   render->add_flag("--validation", options.validation,
                    "Run under the Vulkan validation layer, fail on any message");
   render->add_option("--runs", options.runs, "Frames to time after a warm-up, default 1")
@@ -149,6 +165,52 @@ void add_render(CLI::App& app, RenderOptions& options, RenderText& text) {
   render->add_option("--stats", options.stats, "Write the figures as JSON")
       ->check(not_empty())
       ->type_name("FILE.json");
+}
+
+// The text of `crosscheck`'s own options.
+struct CrosscheckText {
+  RenderText scene;
+  std::optional<std::string> backends;
+};
+
+// --json and --diff, of the commands that compare.
+void add_comparison_files(CLI::App* command, std::string& json, std::string& diff) {
+  command->add_option("--json", json, "Write the figures as JSON")
+      ->check(not_empty())
+      ->type_name("FILE");
+  command
+      ->add_option("--diff", diff,
+                   "Write a picture (.png or .exr): both images, their difference amplified, and "
+                   "where hits, triangles or Z differ")
+      ->check(not_empty())
+      ->type_name("FILE");
+}
+
+void add_crosscheck(CLI::App& app, CrosscheckOptions& options, CrosscheckText& text) {
+  CLI::App* command = app.add_subcommand(
+      "crosscheck", "Render a model with several back ends and compare the frames");
+  add_scene(command, options.render, text.scene);
+  command
+      ->add_option("--backends", text.backends,
+                   "Two or more of vulkan, opengl, cpu, oracle, default vulkan,opengl")
+      ->type_name("A,B,...");
+  add_comparison_files(command, options.json, options.diff);
+}
+
+void add_compare(CLI::App& app, CompareOptions& options, std::vector<std::string>& thresholds) {
+  CLI::App* command =
+      app.add_subcommand("compare", "Compare two images, PNG or EXR, of the same size");
+  command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  command->add_option("A", options.a, "Image")->required();
+  command->add_option("B", options.b, "Image")->required();
+  command
+      ->add_option("--threshold", thresholds,
+                   "The most of it that is well: hit_mismatches and patch_mismatches (parts of the "
+                   "pixels, default 0), color_max (8-bit steps, default 1), color_rmse, z_differs "
+                   "(part of the hits, both default anything)")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("NAME=X");
+  add_comparison_files(command, options.json, options.diff);
 }
 
 // The text of `accuracy`'s options.
@@ -215,6 +277,41 @@ void add_hardcases(CLI::App& app, HardcasesOptions& options, std::string& backen
       ->type_name("D");
 }
 
+Backend backend_of(const std::string& name) {
+  return name == "opengl"   ? Backend::opengl
+         : name == "cpu"    ? Backend::cpu
+         : name == "oracle" ? Backend::oracle
+                            : Backend::vulkan;
+}
+
+void parse_scene(const RenderText& text, RenderOptions& options) {
+  if (!text.surface.empty()) options.surface = surface_of(text.surface);
+  if (text.gl_path == "fragment") options.gl_path = GlPath::fragment;
+  if (text.preset) {
+    options.shell = SHELL_HEIGHT;
+    options.solver = SOLVER_BISECT;
+  }
+  if (text.shell) options.shell = shell_of(*text.shell);
+  if (text.solver) options.solver = *text.solver == "bisect" ? SOLVER_BISECT : SOLVER_ROBUST;
+  if (text.size) parse_size("--size", *text.size, options.width, options.height);
+  if (text.eye) options.eye = parse_triple("--eye", *text.eye);
+  if (text.target) options.target = parse_triple("--target", *text.target);
+  if (text.up) options.up = parse_triple("--up", *text.up);
+}
+
+int run_crosscheck(CrosscheckOptions options, const CrosscheckText& text) {
+  parse_scene(text.scene, options.render);
+  if (text.backends) options.backends = parse_backends("--backends", *text.backends);
+  return crosscheck(options);
+}
+
+int run_compare(CompareOptions options, const std::vector<std::string>& thresholds) {
+  for (const std::string& threshold : thresholds) {
+    parse_threshold("--threshold", threshold, options.tolerance);
+  }
+  return compare_images(options);
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Ray-traces triangle models as smooth curved surfaces, in a Vulkan compute shader.",
                "trisect");
@@ -229,9 +326,15 @@ int run(int argc, char** argv) {
   HardcasesOptions hardcases_options;
   std::string hardcases_backend;
   add_hardcases(app, hardcases_options, hardcases_backend);
+  CrosscheckOptions crosscheck_options;
+  CrosscheckText crosscheck_text;
+  add_crosscheck(app, crosscheck_options, crosscheck_text);
+  CompareOptions compare_options;
+  std::vector<std::string> thresholds;
+  add_compare(app, compare_options, thresholds);
   app.add_subcommand("devices", "List the Vulkan devices, and what those that cannot be used lack");
   app.footer(
-      "Exit codes: 0 done, 1 a promise of accuracy not kept, 2 usage, 3 bad input, 4 no usable "
+      "Exit codes: 0 done, 1 farther apart than promised, 2 usage, 3 bad input, 4 no usable "
       "device, 70 internal error, "
       "130 interrupted.");
   const auto is_named = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
@@ -246,23 +349,14 @@ int run(int argc, char** argv) {
   }
   if (app.got_subcommand("devices")) return list_devices();
   if (app.got_subcommand("accuracy")) return run_accuracy(accuracy_options, accuracy_text);
+  if (app.got_subcommand("crosscheck")) return run_crosscheck(crosscheck_options, crosscheck_text);
+  if (app.got_subcommand("compare")) return run_compare(compare_options, thresholds);
   if (app.got_subcommand("hardcases")) {
     if (hardcases_backend == "cpu") hardcases_options.backend = Backend::cpu;
     return hardcases(hardcases_options);
   }
-  if (!text.surface.empty()) options.surface = surface_of(text.surface);
-  if (text.backend == "cpu") options.backend = Backend::cpu;
-  if (text.backend == "oracle") options.backend = Backend::oracle;
-  if (text.preset) {
-    options.shell = SHELL_HEIGHT;
-    options.solver = SOLVER_BISECT;
-  }
-  if (text.shell) options.shell = shell_of(*text.shell);
-  if (text.solver) options.solver = *text.solver == "bisect" ? SOLVER_BISECT : SOLVER_ROBUST;
-  if (text.size) parse_size("--size", *text.size, options.width, options.height);
-  if (text.eye) options.eye = parse_triple("--eye", *text.eye);
-  if (text.target) options.target = parse_triple("--target", *text.target);
-  if (text.up) options.up = parse_triple("--up", *text.up);
+  parse_scene(text, options);
+  if (text.backend) options.backend = backend_of(*text.backend);
   return render(options);
 }
 

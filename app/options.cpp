@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "app/error.h"
 
@@ -26,6 +29,8 @@ bool take_character(std::string_view& text, char c) {
   return true;
 }
 
+constexpr Backend kBackends[] = {Backend::vulkan, Backend::opengl, Backend::cpu, Backend::oracle};
+
 }  // namespace
 
 const char* surface_name(uint surface) {
@@ -41,7 +46,17 @@ const char* solver_name(uint solver) {
 }
 
 const char* backend_name(Backend backend) {
-  return backend == Backend::vulkan ? "vulkan" : backend == Backend::cpu ? "cpu" : "oracle";
+  switch (backend) {
+    case Backend::vulkan:
+      return "vulkan";
+    case Backend::opengl:
+      return "opengl";
+    case Backend::cpu:
+      return "cpu";
+    case Backend::oracle:
+      return "oracle";
+  }
+  return "";
 }
 
 void parse_size(const std::string& option, const std::string& text, uint32_t& width,
@@ -70,6 +85,51 @@ glm::dvec3 parse_triple(const std::string& option, const std::string& text) {
                                  option, text, largest));
   }
   return value;
+}
+
+std::vector<Backend> parse_backends(const std::string& option, const std::string& text) {
+  std::vector<Backend> backends;
+  std::string_view rest = text;
+  while (true) {
+    const std::string_view name = rest.substr(0, rest.find(','));
+    const auto known = std::find_if(std::begin(kBackends), std::end(kBackends),
+                                    [&](Backend b) { return name == backend_name(b); });
+    if (known == std::end(kBackends)) {
+      throw UsageError(
+          fmt::format("{}: '{}' is not one of: vulkan, opengl, cpu, oracle.", option, name));
+    }
+    if (std::find(backends.begin(), backends.end(), *known) != backends.end()) {
+      throw UsageError(fmt::format("{}: '{}' is there twice.", option, name));
+    }
+    backends.push_back(*known);
+    if (name.size() == rest.size()) break;
+    rest.remove_prefix(name.size() + 1);
+  }
+  if (backends.size() < 2) throw UsageError(option + ": two or more are needed.");
+  return backends;
+}
+
+void parse_threshold(const std::string& option, const std::string& text, Tolerance& tolerance) {
+  const std::pair<const char*, double*> members[] = {
+      {"hit_mismatches", &tolerance.hit_mismatches},
+      {"patch_mismatches", &tolerance.patch_mismatches},
+      {"z_differs", &tolerance.z_differs},
+      {"color_rmse", &tolerance.color_rmse},
+      {"color_max", &tolerance.color_max}};
+  const std::size_t equals = text.find('=');
+  for (const auto& [name, member] : members) {
+    if (equals == std::string::npos || text.substr(0, equals) != name) continue;
+    std::string_view rest = std::string_view(text).substr(equals + 1);
+    double value = 0.0;
+    if (take_number(rest, value) && rest.empty() && value >= 0.0) {
+      *member = value;
+      return;
+    }
+  }
+  throw UsageError(
+      fmt::format("{}: '{}' is not NAME=NUMBER with a name of: hit_mismatches, patch_mismatches, "
+                  "z_differs, color_rmse, color_max.",
+                  option, text));
 }
 
 }  // namespace trisect

@@ -7,11 +7,15 @@
 #include <vector>
 
 #include "app/shared.h"
+#include "app/tolerance.h"
 
 namespace trisect {
 
 // Who traces.
-enum class Backend { vulkan, cpu, oracle };
+enum class Backend { vulkan, opengl, cpu, oracle };
+
+// How OpenGL traces: the kernel of Vulkan, or the thesis's full-screen quad.
+enum class GlPath { compute, fragment };
 
 struct RenderOptions {
   std::string model;
@@ -30,6 +34,7 @@ struct RenderOptions {
   double fov = 45.0;
   std::optional<double> crease;
   Backend backend = Backend::vulkan;
+  GlPath gl_path = GlPath::compute;
   std::string device;
   bool validation = false;
   uint32_t runs = 1;
@@ -53,6 +58,21 @@ struct HardcasesOptions {
   std::string device;
 };
 
+struct CrosscheckOptions {
+  RenderOptions render;  // of which output, backend, runs and stats mean nothing
+  std::vector<Backend> backends{Backend::vulkan, Backend::opengl};
+  std::string json;
+  std::string diff;
+};
+
+struct CompareOptions {
+  std::string a;
+  std::string b;
+  Tolerance tolerance{0.0, 0.0, Tolerance::kAny, Tolerance::kAny, 1.0};
+  std::string json;
+  std::string diff;
+};
+
 // The names that the command line and the JSON use.
 const char* surface_name(uint surface);
 const char* shell_name(uint shell);
@@ -66,5 +86,12 @@ void parse_size(const std::string& option, const std::string& text, uint32_t& wi
 // "1,-2.5,3e2". Throws UsageError, naming the option, for anything but three numbers of at most
 // 1e12.
 glm::dvec3 parse_triple(const std::string& option, const std::string& text);
+
+// "vulkan,opengl": two or more, none twice. Throws UsageError, naming the option, for anything
+// else.
+std::vector<Backend> parse_backends(const std::string& option, const std::string& text);
+
+// "color_rmse=0.5": changes that member. Throws UsageError, naming the option, for anything else.
+void parse_threshold(const std::string& option, const std::string& text, Tolerance& tolerance);
 
 }  // namespace trisect

@@ -16,21 +16,21 @@ double RayQueue::run_all(gpu::Commands& commands, const gpu::Kernel& kernel,
                          const std::function<void()>& between_submits,
                          const PushBytes& push_bytes) {
   if (groups > rays_ / group_rays) throw std::logic_error("more rays than the queue has places");
-  QueuePush queue{0, steps_, 0, rays_, 0};
   double gpu_ms = 0.0;
-  while (true) {
-    const uint32_t none = 0;
-    std::memcpy(queued_.bytes().data(), &none, sizeof(none));
+  walk_all(steps_, rays_, [&](const QueuePush& queue) {
+    if (queue.pass > 0) {
+      groups = (queue.resumed + group_rays - 1) / group_rays;
+      if (between_submits) between_submits();
+    }
+    uint32_t queued = 0;
+    std::memcpy(queued_.bytes().data(), &queued, sizeof(queued));
     commands.begin();
     commands.dispatch(kernel, bound, push_bytes(queue), groups);
     gpu_ms += commands.submit_and_wait();
-    std::memcpy(&queue.resumed, queued_.bytes().data(), sizeof(queue.resumed));
-    if (queue.resumed == 0) return gpu_ms;
-    ++queue.pass;
-    std::swap(queue.from, queue.to);
-    groups = (queue.resumed + group_rays - 1) / group_rays;
-    if (between_submits) between_submits();
-  }
+    std::memcpy(&queued, queued_.bytes().data(), sizeof(queued));
+    return queued;
+  });
+  return gpu_ms;
 }
 
 }  // namespace trisect

@@ -5,11 +5,26 @@
 #include <cstring>
 #include <functional>
 #include <span>
+#include <utility>
 
 #include "app/shared.h"
 #include "vk/commands.h"
 
 namespace trisect {
+
+// Calls submit(queue) until no ray is left, for new rays first: it runs the kernel with these push
+// constants and returns how many rays paused. half: places of a queue's half, 0 if a ray has its
+// own.
+template <typename Submit>
+void walk_all(uint32_t steps, uint32_t half, Submit&& submit) {
+  QueuePush queue{0, steps, 0, half, 0};
+  while (true) {
+    queue.resumed = submit(queue);
+    if (queue.resumed == 0) return;
+    ++queue.pass;
+    std::swap(queue.from, queue.to);
+  }
+}
 
 class RayQueue {
  public:

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "app/bake.h"
+#include "app/frame_time.h"
 #include "app/options.h"
-#include "app/vulkan_tracer.h"
 
 namespace trisect {
 

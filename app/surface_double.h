@@ -15,6 +15,7 @@ using vec4 = glm::dvec4;
 #include "shaders/shared.h"
 
 #define real double
+#define EXACT
 #define OUT(T) T&
 #define INOUT(T) T&
 // Plain functions in a header: each translation unit has its own, and not all of them are called.
@@ -35,6 +36,7 @@ inline double polar_angle(double sine, double cosine) {
 }  // namespace
 #pragma GCC diagnostic pop
 #undef real
+#undef EXACT
 #undef OUT
 #undef INOUT
 

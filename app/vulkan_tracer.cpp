@@ -1,15 +1,13 @@
 #include "app/vulkan_tracer.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <span>
 #include <stdexcept>
 
+#include "app/buffer_limits.h"
 #include "app/cage.h"
 #include "app/kernels.h"
-#include "vk/result.h"
 
 namespace trisect {
 namespace {
@@ -26,42 +24,6 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
       .count();
 }
 
-// Rows of the image that the output buffers hold at a time: all of them if buffers of so many bytes
-// allow, else a whole number of workgroups.
-uint32_t rows_in_a_band(const gpu::Device& device, std::size_t limit, uint32_t width,
-                        uint32_t height, bool aovs) {
-  const std::size_t row = std::size_t{width} * (aovs ? sizeof(PixelAovs) : sizeof(vec4));
-  const std::size_t fit = limit / row / TILE_SIZE * TILE_SIZE;
-  if (fit == 0) {
-    throw gpu::Error(fmt::format("device {} cannot hold {} rows of {} pixels in one buffer.",
-                                 device.report().name, TILE_SIZE, width));
-  }
-  return static_cast<uint32_t>(std::min<std::size_t>(fit, height));
-}
-
-std::size_t triangle_bytes(const gpu::Device& device, std::size_t limit, const BakedScene& scene) {
-  const std::size_t bytes = scene.triangles.size() * sizeof(Triangle);
-  if (bytes > limit) {
-    throw gpu::Error(
-        fmt::format("device {} has storage buffers of at most {} bytes, which hold {} triangles; "
-                    "the model has {}.",
-                    device.report().name, limit, limit / sizeof(Triangle), scene.triangles.size()));
-  }
-  return bytes;
-}
-
-// A binding wants a buffer, also if no solver reads it.
-std::size_t cage_bytes(const gpu::Device& device, std::size_t limit, const BakedScene& scene) {
-  const std::size_t bytes = std::max<std::size_t>(scene.cages.size(), 1) * sizeof(Cage);
-  if (bytes > limit) {
-    throw gpu::Error(
-        fmt::format("device {} has storage buffers of at most {} bytes; the bounds of the model's "
-                    "patches take {}.",
-                    device.report().name, limit, bytes));
-  }
-  return bytes;
-}
-
 }  // namespace
 
 VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, uint32_t width,
@@ -71,7 +33,7 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
       height_(height),
       aovs_(choice.aovs),
       buffer_limit_(std::min<std::size_t>(buffer_limit, device.limits().maxStorageBufferRange)),
-      band_rows_(rows_in_a_band(device, buffer_limit_, width, height, choice.aovs)),
+      band_rows_(rows_in_a_band(device.report().name, buffer_limit_, width, height, choice.aovs)),
       kernel_(device, kTraceListSpirv, trace_list_interface(),
               {{CONSTANT_SURFACE, scene.choice.surface},
                {CONSTANT_SHELL, scene.choice.shell},
@@ -83,9 +45,10 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
       commands_(device),
       staging_(device, kStagingBytes),
       params_(device, sizeof(TraceParams), gpu::Memory::device, "trace parameters"),
-      triangles_(device, triangle_bytes(device, buffer_limit_, scene), gpu::Memory::device,
-                 "triangles"),
-      cages_(device, cage_bytes(device, buffer_limit_, scene), gpu::Memory::device, "cages"),
+      triangles_(device, triangle_bytes(device.report().name, buffer_limit_, scene),
+                 gpu::Memory::device, "triangles"),
+      cages_(device, cage_bytes(device.report().name, buffer_limit_, scene), gpu::Memory::device,
+             "cages"),
       colors_(device, std::size_t{width} * band_rows_ * sizeof(vec4), gpu::Memory::device,
               "colors"),
       // A binding wants a buffer; without AOVs nothing is written to it.

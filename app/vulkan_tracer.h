@@ -7,6 +7,7 @@
 
 #include "app/bake.h"
 #include "app/frame.h"
+#include "app/frame_time.h"
 #include "app/kernel_choice.h"
 #include "app/ray_queue.h"
 #include "app/shared.h"
@@ -14,12 +15,6 @@
 #include "vk/commands.h"
 
 namespace trisect {
-
-// Milliseconds for one frame.
-struct FrameTime {
-  double gpu_ms = 0.0;   // on the device, all submits added up
-  double wall_ms = 0.0;  // from the first submit until the frame is in host memory
-};
 
 class VulkanTracer {
  public:

@@ -49,9 +49,10 @@ Node node_at(vec4 part, uint path) {
 
 // Blossom of the quadratic q at weights a, b.
 real blossom(vec3 corner, vec3 edge, vec3 a, vec3 b) {
-  return corner.x * a.x * b.x + corner.y * a.y * b.y + corner.z * a.z * b.z +
-         edge.x * (a.x * b.y + a.y * b.x) + edge.y * (a.y * b.z + a.z * b.y) +
-         edge.z * (a.x * b.z + a.z * b.x);
+  EXACT real q = corner.x * a.x * b.x + corner.y * a.y * b.y + corner.z * a.z * b.z +
+                 edge.x * (a.x * b.y + a.y * b.x) + edge.y * (a.y * b.z + a.z * b.y) +
+                 edge.z * (a.x * b.z + a.z * b.x);
+  return q;
 }
 
 // Control points of T + q D over a node.
@@ -78,7 +79,7 @@ Net cage_net(FramedPatch framed, vec3 corner, vec3 edge, Node node) {
   real qbc = blossom(corner, edge, b, c);
   real qca = blossom(corner, edge, c, a);
   const real third = real(1.0) / real(3.0);
-  Net net;
+  EXACT Net net;
   net.b300 = Ta + Da * qaa;
   net.b030 = Tb + Db * qbb;
   net.b003 = Tc + Dc * qcc;

@@ -34,13 +34,15 @@ void main() {
     if (index >= push.end) return;
   } else {
     if (index >= push.queue.resumed) return;
-    index = resumed_ray(index, walk);
+    uint place = push.queue.from + index;
+    walk = resumed_walk(place, walk.steps);
+    index = paused[place].ray;
   }
   PixelRay ray = ray_cast(rays[index]);
   go_on(ray, push.queue.pass, walk);
   if (is_through(walk)) {
     hits[index] = hit_cast(ray, walk);
   } else {
-    pause(index, walk);
+    pause(push.queue.to + atomicAdd(queued, 1u), index, walk);
   }
 }

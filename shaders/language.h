@@ -3,5 +3,8 @@
 // built by constructors and read by .x .y .z. app/surface_double.h gives the C++ side of these
 // names.
 #define real float
+// A variable whose value is rounded as written: Mesa's OpenGL compiler balances longer sums and
+// products otherwise.
+#define EXACT precise
 #define OUT(T) out T
 #define INOUT(T) inout T

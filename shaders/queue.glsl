@@ -1,11 +1,12 @@
-// Rays that pause, of a kernel with a push constant block `push`.
+// Rays that pause.
 
 layout(std430, binding = BINDING_QUEUE) restrict buffer QueueBlock { PausedRay paused[]; };
 layout(std430, binding = BINDING_QUEUED) restrict buffer QueuedBlock { uint queued; };
 
-// Which ray this invocation goes on with, from the second pass on; its walk.
-uint resumed_ray(uint invocation, OUT(Walk) walk) {
-  PausedRay ray = paused[push.queue.from + invocation];
+// The walk that paused at a place of the queue.
+Walk resumed_walk(uint place, int steps) {
+  PausedRay ray = paused[place];
+  Walk walk;
   walk.hit.z = ray.hit.w;
   walk.hit.weights = vec3(ray.hit);
   walk.hit.triangle = ray.triangle;
@@ -13,12 +14,11 @@ uint resumed_ray(uint invocation, OUT(Walk) walk) {
   walk.counts.candidates = ray.candidates;
   walk.item = ray.item;
   walk.path = ray.path;
-  walk.steps = int(push.queue.steps);
-  return ray.ray;
+  walk.steps = steps;
+  return walk;
 }
 
-void pause(uint ray, Walk walk) {
-  uint place = push.queue.to + atomicAdd(queued, 1u);
+void pause(uint place, uint ray, Walk walk) {
   paused[place].hit = vec4(walk.hit.weights, walk.hit.z);
   paused[place].triangle = walk.hit.triangle;
   paused[place].ray = ray;

@@ -27,7 +27,7 @@ RayFrame ray_frame(vec3 anchor, vec3 view) {
   real turn = view.z < real(0.0) ? real(-1.0) : real(1.0);
   real a = real(-1.0) / (turn + view.z);
   real b = view.x * view.y * a;
-  RayFrame frame;
+  EXACT RayFrame frame;
   frame.anchor = anchor;
   frame.x = vec3(real(1.0) + turn * view.x * view.x * a, turn * b, -turn * view.x);
   frame.y = vec3(b, turn + view.y * view.y * a, -view.y);

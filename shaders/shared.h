@@ -157,6 +157,7 @@ const uint SOLVER_ROBUST = 1u;
 #define BINDING_HITS 6
 #define BINDING_QUEUE 7
 #define BINDING_QUEUED 8
+#define BINDING_PUSH 9  // OpenGL only
 
 // Specialisation constants.
 #define CONSTANT_SURFACE 0

@@ -13,10 +13,10 @@ real Height(vec3 pos, vec3 origin, vec3 n) { return dot3(pos - origin, n); }
 
 // Weights of pos, a point of the plane of a, b, c, among them.
 vec3 Barycentric(vec3 pos, vec3 a, vec3 b, vec3 c) {
-  vec3 normal = cross3(b - a, c - a);
-  real area = dot3(normal, normal);
-  real wb = dot3(cross3(pos - a, c - a), normal) / area;
-  real wc = dot3(cross3(b - a, pos - a), normal) / area;
+  EXACT vec3 normal = cross3(b - a, c - a);
+  EXACT real area = dot3(normal, normal);
+  EXACT real wb = dot3(cross3(pos - a, c - a), normal) / area;
+  EXACT real wc = dot3(cross3(b - a, pos - a), normal) / area;
   return vec3(real(1.0) - wb - wc, wb, wc);
 }
 
@@ -30,8 +30,8 @@ real PlaneDist(vec3 pos, vec3 dir, vec3 origin, vec3 n) {
 
 // The listings' dir: from pos toward the base triangle if above it, away if below.
 vec3 inward(vec3 pos, vec3 triPos, real height, vec3 D) {
-  vec3 toward = triPos - pos;
-  real size = length3(toward);
+  EXACT vec3 toward = triPos - pos;
+  EXACT real size = length3(toward);
   return height == real(0.0) || size == real(0.0) ? -normalize3(D) : toward * (sign(height) / size);
 }
 
@@ -47,14 +47,14 @@ vec4 PhongField(Triangle tri, vec3 pos, real alpha) {
   vec3 P0 = vec3(tri.Position[0]);
   vec3 P1 = vec3(tri.Position[1]);
   vec3 P2 = vec3(tri.Position[2]);
-  real height = Height(pos, P0, vec3(tri.TriNormal));
-  vec3 weights = offset_weights(tri, pos, height);
-  vec3 triPos = weigh(weights, P0, P1, P2);
+  EXACT real height = Height(pos, P0, vec3(tri.TriNormal));
+  EXACT vec3 weights = offset_weights(tri, pos, height);
+  EXACT vec3 triPos = weigh(weights, P0, P1, P2);
   vec3 dir = inward(pos, triPos, height, shell_direction(SHELL_HEIGHT, tri, weights));
-  vec3 phPos = weigh(weights, Project(triPos, P0, vec3(tri.Normal[0])),
+  EXACT vec3 phPos = weigh(weights, Project(triPos, P0, vec3(tri.Normal[0])),
                      Project(triPos, P1, vec3(tri.Normal[1])),
                      Project(triPos, P2, vec3(tri.Normal[2])));
-  phPos = mix(triPos, phPos, alpha);
+  phPos = triPos * (real(1.0) - alpha) + phPos * alpha;
   return vec4(weights, PlaneDist(pos, dir, phPos, -dir));
 }
 
@@ -73,11 +73,11 @@ vec4 SphereField(Triangle tri, vec3 pos) {
   vec3 P0 = vec3(tri.Position[0]);
   vec3 P1 = vec3(tri.Position[1]);
   vec3 P2 = vec3(tri.Position[2]);
-  real height = Height(pos, P0, vec3(tri.TriNormal));
-  vec3 weights = offset_weights(tri, pos, height);
+  EXACT real height = Height(pos, P0, vec3(tri.TriNormal));
+  EXACT vec3 weights = offset_weights(tri, pos, height);
   vec3 cw = clamp(weights, real(0.0), real(1.0));
   cw /= cw.x + cw.y + cw.z;
-  vec3 triPos = weigh(cw, P0, P1, P2);
+  EXACT vec3 triPos = weigh(cw, P0, P1, P2);
   vec3 dir = inward(pos, triPos, height, shell_direction(SHELL_HEIGHT, tri, cw));
   vec3 dist = vec3(SphereDist(pos, dir, P0, vec3(tri.Normal[0]),
                               blended_curvature(triPos, P0, P2, tri.VertexData[0])),
@@ -106,8 +106,8 @@ vec4 NormalShellField(Shape shape, Triangle tri, vec3 pos) {
   for (int i = 0; i < 4; ++i) {
     s -= (a + s * (b + s * (c + s * d))) / (b + s * (real(2.0) * c + s * (real(3.0) * d)));
   }
-  vec3 weights = Barycentric(vec3(0.0), P0 + N0 * s, P1 + N1 * s, P2 + N2 * s);
-  real size = length3(shell_direction(SHELL_NORMAL, tri, weights));
+  EXACT vec3 weights = Barycentric(vec3(0.0), P0 + N0 * s, P1 + N1 * s, P2 + N2 * s);
+  EXACT real size = length3(shell_direction(SHELL_NORMAL, tri, weights));
   return vec4(weights, (s - displacement(shape, tri, weights)) * size);
 }
 

@@ -15,23 +15,29 @@ struct PixelRay {
   real beyond_axis;
 };
 
-PixelRay pixel_ray(uvec2 pixel) {
-  real x = real(pixel.x) + real(0.5);
-  real y = real(pixel.y) + real(0.5);
-  vec3 to_near = vec3(params.ray_corner) + vec3(params.ray_dx) * x + vec3(params.ray_dy) * y;
+// The ray through a point of the near plane, given from the eye, that passes the anchor's plane at `aside` from its
+// middle.
+PixelRay ray_through(vec3 to_near, vec3 aside) {
   PixelRay ray;
   ray.near_distance = length3(to_near);
   ray.far_depth = ray.near_distance * (params.eye.w - real(1.0));
   ray.view = to_near / ray.near_distance;
   ray.near_point = vec3(params.eye) + to_near;
-  vec3 aside = vec3(params.anchor_dx) * (x - real(0.5) * real(params.width)) +
-               vec3(params.anchor_dy) * (y - real(0.5) * real(params.height));
   ray.anchor = vec3(params.anchor) + aside;
   real axis = params.anchor.w;
   real square = dot3(aside, aside);
   ray.axis = axis;
   ray.beyond_axis = square / (axis + sqrt(axis * axis + square));
   return ray;
+}
+
+PixelRay pixel_ray(uvec2 pixel) {
+  real x = real(pixel.x) + real(0.5);
+  real y = real(pixel.y) + real(0.5);
+  vec3 to_near = vec3(params.ray_corner) + vec3(params.ray_dx) * x + vec3(params.ray_dy) * y;
+  vec3 aside = vec3(params.anchor_dx) * (x - real(0.5) * real(params.width)) +
+               vec3(params.anchor_dy) * (y - real(0.5) * real(params.height));
+  return ray_through(to_near, aside);
 }
 
 Shape scene_shape() {

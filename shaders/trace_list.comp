@@ -7,21 +7,9 @@
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 
-layout(constant_id = CONSTANT_SURFACE) const uint SURFACE = SURFACE_PHONG;
-layout(constant_id = CONSTANT_SHELL) const uint SHELL = SHELL_NORMAL;
-layout(constant_id = CONSTANT_GROUPS) const bool GROUPS = false;
-layout(constant_id = CONSTANT_SOLVER) const uint SOLVER = SOLVER_ROBUST;
-layout(constant_id = CONSTANT_AOVS) const bool AOVS = false;
-layout(constant_id = CONSTANT_COUNTS) const bool COUNTS = false;
-
-layout(std140, binding = BINDING_PARAMS) uniform ParamsBlock { TraceParams params; };
-layout(std430, binding = BINDING_TRIANGLES) readonly restrict buffer TrianglesBlock {
-  Triangle triangles[];
-};
-layout(std430, binding = BINDING_CAGES) readonly restrict buffer CagesBlock { Cage cages[]; };
+#include "frame_buffers.glsl"
 layout(std430, binding = BINDING_COLOR) writeonly restrict buffer ColorBlock { vec4 colors[]; };
 layout(std430, binding = BINDING_AOVS) writeonly restrict buffer AovsBlock { PixelAovs pixels[]; };
-layout(push_constant) uniform PushBlock { TilePush push; };
 
 #include "trace.glsl"
 #include "queue.glsl"
@@ -34,7 +22,7 @@ uvec2 new_pixel() {
 }
 
 void main() {
-  Walk walk = walk_begun(int(push.queue.steps));
+  precise Walk walk = walk_begun(int(push.queue.steps));
   uvec2 pixel;
   if (push.queue.pass == 0u) {
     pixel = new_pixel();
@@ -42,17 +30,19 @@ void main() {
   } else {
     uint invocation = gl_WorkGroupID.x * TILE_SIZE * TILE_SIZE + gl_LocalInvocationIndex;
     if (invocation >= push.queue.resumed) return;
-    uint index = resumed_ray(invocation, walk);
+    uint place = push.queue.from + invocation;
+    walk = resumed_walk(place, walk.steps);
+    uint index = paused[place].ray;
     pixel = uvec2(index % params.width, index / params.width);
   }
-  PixelRay ray = pixel_ray(pixel);
+  precise PixelRay ray = pixel_ray(pixel);
   go_on(ray, push.queue.pass, walk);
   if (!is_through(walk)) {
-    pause(pixel.y * params.width + pixel.x, walk);
+    pause(push.queue.to + atomicAdd(queued, 1u), pixel.y * params.width + pixel.x, walk);
     return;
   }
-  vec4 color;
-  PixelAovs aovs;
+  precise vec4 color;
+  precise PixelAovs aovs;
   finish_pixel(ray, walk, color, aovs);
   uint index = (pixel.y - push.first_row) * params.width + pixel.x;
   colors[index] = color;

@@ -136,6 +136,10 @@ TEST_F(Program, ComplainsAboutDevicesWithCode4) {
   expect_complaint(
       run_trisect({"render", test::asset_path("cube"), "-o", folder_ / "a.png"}, no_driver), 4,
       "Vulkan");
+  expect_complaint(run_trisect({"render", test::asset_path("cube"), "-o", folder_ / "a.png",
+                                "--backend", "opengl"},
+                               {"__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent.json"}),
+                   4, "EGL");
 }
 
 TEST_F(Program, StopsWhenInterruptedAndLeavesNothing) {
@@ -183,13 +187,82 @@ TEST_F(Program, TakesADeviceByNumberAndByName) {
   EXPECT_EQ(render({"--device", name}).exit_code, 0) << name;
 }
 
+TEST_F(Program, RendersByOpenGl) {
+  ASSERT_EQ(render({"--backend", "opengl"}, "gl.exr").exit_code, 0);
+  ASSERT_EQ(render({"--backend", "opengl", "--gl-path", "fragment"}, "quad.exr").exit_code, 0);
+  ASSERT_EQ(render({}, "vk.exr").exit_code, 0);
+  EXPECT_EQ(run_trisect({"compare", folder_ / "vk.exr", folder_ / "gl.exr"}).exit_code, 0);
+  EXPECT_EQ(run_trisect({"compare", folder_ / "vk.exr", folder_ / "quad.exr"}).exit_code, 0);
+  EXPECT_EQ(render({"--gl-path", "sideways"}).exit_code, 2);
+}
+
+TEST_F(Program, ComparesImages) {
+  ASSERT_EQ(render({}, "a.exr").exit_code, 0);
+  ASSERT_EQ(render({"--surface", "flat"}, "b.exr").exit_code, 0);
+  ASSERT_EQ(render({"--surface", "flat"}, "b.png").exit_code, 0);
+  ASSERT_EQ(render({"--size", "8x8"}, "small.png").exit_code, 0);
+  const auto compare = [&](const std::string& a, const std::string& b,
+                           const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"compare", folder_ / a, folder_ / b};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_trisect(arguments);
+  };
+  EXPECT_EQ(compare("a.exr", "a.exr").exit_code, 0);
+  // Depths and colours differ, and so do outlines.
+  const test::ProgramRun differs =
+      compare("a.exr", "b.exr", {"--json", folder_ / "c.json", "--diff", folder_ / "d.png"});
+  EXPECT_EQ(differs.exit_code, 1);
+  EXPECT_NE(differs.out.find("too far apart: hit mismatches"), std::string::npos) << differs.out;
+  std::ifstream file(folder_ / "c.json");
+  const auto json = nlohmann::json::parse(file);
+  EXPECT_GT(json["hit_mismatches"], 0);
+  EXPECT_GT(json["z_ulp"]["max"], 1000.0);
+  EXPECT_FALSE(json["excesses"].empty());
+  EXPECT_GT(std::filesystem::file_size(folder_ / "d.png"), 100U);
+  // What is asked for decides. A PNG is rounded to 8 bits.
+  EXPECT_EQ(compare("a.exr", "b.exr",
+                    {"--threshold", "hit_mismatches=1", "--threshold", "patch_mismatches=1",
+                     "--threshold", "color_max=255"})
+                .exit_code,
+            0);
+  EXPECT_EQ(compare("b.exr", "b.exr", {"--threshold", "color_max=0"}).exit_code, 0);
+  EXPECT_EQ(compare("a.exr", "a.exr", {"--threshold", "color=0"}).exit_code, 2);
+  EXPECT_EQ(compare("a.exr", "a.exr", {"--threshold", "color_max=-1"}).exit_code, 2);
+  EXPECT_EQ(compare("b.png", "small.png").exit_code, 3);
+  EXPECT_EQ(compare("b.png", "absent.png").exit_code, 3);
+  std::ofstream(folder_ / "broken.exr") << "not an image";
+  EXPECT_EQ(compare("broken.exr", "b.exr").exit_code, 3);
+}
+
+TEST_F(Program, CrosschecksBackEnds) {
+  const auto crosscheck = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"crosscheck", test::asset_path("sphere-20"), "--size",
+                                       "48x36"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_trisect(arguments);
+  };
+  const test::ProgramRun run = crosscheck({"--backends", "vulkan,opengl,cpu,oracle", "--json",
+                                           folder_ / "c.json", "--diff", folder_ / "d.exr"});
+  EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+  std::ifstream file(folder_ / "c.json");
+  const auto json = nlohmann::json::parse(file);
+  EXPECT_EQ(json["backends"].size(), 4U);
+  EXPECT_EQ(json["pairs"].size(), 6U);
+  EXPECT_EQ(json["pairs"][0]["z_bit_equal"], json["pairs"][0]["z_pixels"]);
+  // The bisection loses pixels that the oracle has.
+  EXPECT_EQ(crosscheck({"--preset", "thesis", "--backends", "vulkan,oracle"}).exit_code, 1);
+  EXPECT_EQ(crosscheck({"--backends", "vulkan"}).exit_code, 2);
+  EXPECT_EQ(crosscheck({"--backends", "vulkan,vulkan"}).exit_code, 2);
+  EXPECT_EQ(crosscheck({"--backends", "vulkan,metal"}).exit_code, 2);
+}
+
 TEST_F(Program, TellsItsVersionAndHelps) {
   const test::ProgramRun version = run_trisect({"--version"});
   EXPECT_EQ(version.exit_code, 0);
   EXPECT_EQ(version.out, "trisect " TRISECT_VERSION "\n");
   const test::ProgramRun help = run_trisect({"--help"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* word : {"render", "devices", "--version"}) {
+  for (const char* word : {"render", "crosscheck", "compare", "devices", "--version"}) {
     EXPECT_NE(help.out.find(word), std::string::npos) << word;
   }
   const test::ProgramRun render_help = run_trisect({"render", "--help"});

@@ -1,0 +1,44 @@
+#include "app/buffer_limits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "vk/result.h"
+
+namespace trisect {
+
+std::size_t triangle_bytes(const std::string& device, std::size_t limit, const BakedScene& scene) {
+  const std::size_t bytes = scene.triangles.size() * sizeof(Triangle);
+  if (bytes > limit) {
+    throw gpu::Error(
+        fmt::format("device {} has storage buffers of at most {} bytes, which hold {} triangles; "
+                    "the model has {}.",
+                    device, limit, limit / sizeof(Triangle), scene.triangles.size()));
+  }
+  return bytes;
+}
+
+std::size_t cage_bytes(const std::string& device, std::size_t limit, const BakedScene& scene) {
+  const std::size_t bytes = std::max<std::size_t>(scene.cages.size(), 1) * sizeof(Cage);
+  if (bytes > limit) {
+    throw gpu::Error(
+        fmt::format("device {} has storage buffers of at most {} bytes; the bounds of the model's "
+                    "patches take {}.",
+                    device, limit, bytes));
+  }
+  return bytes;
+}
+
+uint32_t rows_in_a_band(const std::string& device, std::size_t limit, uint32_t width,
+                        uint32_t height, bool aovs) {
+  const std::size_t row = std::size_t{width} * (aovs ? sizeof(PixelAovs) : sizeof(vec4));
+  const std::size_t fit = limit / row / TILE_SIZE * TILE_SIZE;
+  if (fit == 0) {
+    throw gpu::Error(fmt::format("device {} cannot hold {} rows of {} pixels in one buffer.",
+                                 device, TILE_SIZE, width));
+  }
+  return static_cast<uint32_t>(std::min<std::size_t>(fit, height));
+}
+
+}  // namespace trisect

@@ -1,0 +1,24 @@
+// What fits into a device's storage buffers: the same sentences for every API.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "app/bake.h"
+
+namespace trisect {
+
+// All of them throw gpu::Error, naming the device, if a buffer of `limit` bytes is too small.
+
+std::size_t triangle_bytes(const std::string& device, std::size_t limit, const BakedScene& scene);
+
+// Of one cage at least: a binding wants a buffer, also if no solver reads it.
+std::size_t cage_bytes(const std::string& device, std::size_t limit, const BakedScene& scene);
+
+// Rows of the image that the output buffers hold at a time: all of them if buffers of so many bytes
+// allow, else a whole number of workgroups.
+uint32_t rows_in_a_band(const std::string& device, std::size_t limit, uint32_t width,
+                        uint32_t height, bool aovs);
+
+}  // namespace trisect

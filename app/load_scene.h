@@ -1,0 +1,20 @@
+// From the command line's model and options to what is traced.
+#pragma once
+
+#include "app/bake.h"
+#include "app/options.h"
+#include "app/trace_settings.h"
+
+namespace trisect {
+
+struct LoadedScene {
+  BakedScene scene;
+  TraceParams params;
+  double load_ms;
+  double bake_ms;
+};
+
+// Reads, bakes and frames the model, and prints a line about it. Throws InputError or UsageError.
+LoadedScene load_scene(const RenderOptions& options);
+
+}  // namespace trisect

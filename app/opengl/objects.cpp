@@ -1,0 +1,94 @@
+#include "app/opengl/objects.h"
+
+#include <fmt/format.h>
+
+#include "vk/result.h"
+
+namespace trisect::opengl {
+namespace {
+
+struct Shader : Owned<[](GLuint name) { glDeleteShader(name); }> {
+  using Owned::Owned;
+};
+
+// What glGetShaderInfoLog or glGetProgramInfoLog say, on one line.
+template <typename GetInfoLog>
+std::string log_of(GLuint name, GetInfoLog get) {
+  std::string text(2000, '\0');
+  GLsizei length = 0;
+  get(name, static_cast<GLsizei>(text.size()), &length, text.data());
+  text.resize(static_cast<std::size_t>(length));
+  for (char& c : text) c = c == '\n' ? ' ' : c;
+  return text;
+}
+
+Shader compiled(const std::string& head, const Stage& stage) {
+  Shader shader(glCreateShader(stage.kind));
+  const char* const texts[] = {head.c_str(), stage.text};
+  glShaderSource(shader.get(), 2, texts, nullptr);
+  glCompileShader(shader.get());
+  GLint done = GL_FALSE;
+  glGetShaderiv(shader.get(), GL_COMPILE_STATUS, &done);
+  if (done != GL_TRUE) {
+    throw gpu::Error("OpenGL did not compile a shader: " +
+                     log_of(shader.get(), glGetShaderInfoLog));
+  }
+  return shader;
+}
+
+}  // namespace
+
+void check(const std::string& what) {
+  const GLenum error = glGetError();
+  if (error == GL_NO_ERROR) return;
+  throw gpu::Error(fmt::format("OpenGL reports error {:#x}: {}.", error, what));
+}
+
+Program make_program(const std::string& head, const std::vector<Stage>& stages) {
+  Program program(glCreateProgram());
+  std::vector<Shader> shaders;
+  for (const Stage& stage : stages) {
+    shaders.push_back(compiled(head, stage));
+    glAttachShader(program.get(), shaders.back().get());
+  }
+  glLinkProgram(program.get());
+  GLint done = GL_FALSE;
+  glGetProgramiv(program.get(), GL_LINK_STATUS, &done);
+  if (done != GL_TRUE) {
+    throw gpu::Error("OpenGL did not link a program: " +
+                     log_of(program.get(), glGetProgramInfoLog));
+  }
+  return program;
+}
+
+Buffer::Buffer(std::size_t size, const std::string& name) {
+  GLuint buffer = 0;
+  glGenBuffers(1, &buffer);
+  buffer_ = Owned<free_buffer>(buffer);
+  glBindBuffer(GL_COPY_WRITE_BUFFER, buffer);
+  glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(size), nullptr, GL_DYNAMIC_COPY);
+  check(fmt::format("no {} MiB for the {} buffer", size >> 20U, name));
+  clear();
+}
+
+void Buffer::write(std::span<const std::byte> bytes) {
+  glBindBuffer(GL_COPY_WRITE_BUFFER, buffer_.get());
+  glBufferSubData(GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+}
+
+void Buffer::read(std::size_t offset, std::span<std::byte> bytes) const {
+  glBindBuffer(GL_COPY_READ_BUFFER, buffer_.get());
+  glGetBufferSubData(GL_COPY_READ_BUFFER, static_cast<GLintptr>(offset),
+                     static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+}
+
+void Buffer::clear() {
+  glBindBuffer(GL_COPY_WRITE_BUFFER, buffer_.get());
+  glClearBufferData(GL_COPY_WRITE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+}
+
+void Buffer::bind(GLenum target, GLuint binding) const {
+  glBindBufferBase(target, binding, buffer_.get());
+}
+
+}  // namespace trisect::opengl

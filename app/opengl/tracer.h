@@ -1,0 +1,69 @@
+// The OpenGL back end: a baked scene and trace parameters in, a frame out.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "app/bake.h"
+#include "app/frame.h"
+#include "app/frame_time.h"
+#include "app/kernel_choice.h"
+#include "app/opengl/objects.h"
+#include "app/options.h"
+#include "app/submit_budget.h"
+
+namespace trisect::opengl {
+
+class Tracer {
+ public:
+  // Uploads the scene and compiles the shaders for it; a context must be current, and stay so.
+  // width, height: pixels of the frames. buffer_limit: the most bytes a buffer may have, if less
+  // than OpenGL's own limit. Throws gpu::Error if OpenGL cannot hold the scene or the image.
+  Tracer(const BakedScene& scene, uint32_t width, uint32_t height, const KernelChoice& choice,
+         GlPath path, std::size_t buffer_limit = std::numeric_limits<std::size_t>::max());
+
+  // As VulkanTracer::render; gpu_ms is by the host's clock.
+  FrameTime render(const TraceParams& params, Frame& frame,
+                   const std::function<void()>& between_submits = {});
+
+  [[nodiscard]] double upload_ms() const { return upload_ms_; }
+
+ private:
+  void bind() const;
+  // Runs `work` with these push constants and returns how many rays have paused.
+  uint32_t submit(const TilePush& push, const std::function<void()>& work);
+  double compute_band(uint32_t first_row, uint32_t rows,
+                      const std::function<void()>& between_submits);
+  double draw_band(const TraceParams& params, uint32_t first_row, uint32_t rows,
+                   const std::function<void()>& between_submits);
+  void read_buffers(uint32_t first_row, uint32_t rows, Frame& frame) const;
+  void read_framebuffer(uint32_t first_row, uint32_t rows, Frame& frame) const;
+
+  uint32_t width_;
+  uint32_t height_;
+  bool aovs_;
+  GlPath path_;
+  std::size_t buffer_limit_;
+  uint32_t band_rows_;
+  Buffer triangles_;
+  Buffer cages_;
+  Buffer params_;
+  Buffer push_;
+  Buffer queued_;
+  Buffer paused_;  // compute: RayQueue's two halves; fragment: a place for each pixel
+  Program program_;
+  // The compute path's outputs.
+  std::optional<Buffer> colors_;
+  std::optional<Buffer> aovs_buffer_;
+  // The fragment path's.
+  std::vector<Texture> textures_;
+  Framebuffer framebuffer_;
+  VertexArray vertices_;
+  double upload_ms_ = 0.0;
+  SubmitBudget budget_;
+};
+
+}  // namespace trisect::opengl

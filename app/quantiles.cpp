@@ -1,0 +1,25 @@
+#include "app/quantiles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trisect {
+
+Quantiles quantiles_of(std::vector<double> values) {
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  const std::size_t last = values.size() - 1;
+  return {values[last / 2], values[(last * 99 + 99) / 100], values[last]};
+}
+
+double ulp_of(float x) {
+  return static_cast<double>(std::nextafter(std::abs(x), std::numeric_limits<float>::infinity())) -
+         static_cast<double>(std::abs(x));
+}
+
+double degrees_between(const glm::dvec3& a, const glm::dvec3& b) {
+  return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
+}
+
+}  // namespace trisect

@@ -1,0 +1,12 @@
+# Writes a shader as one text for OpenGL's own compiler, as a C++ string:
+#   cmake -DGLSLANG=... -DSOURCE=in.comp -DHEADER=out.h -DNAME=variable -P flatten.cmake
+get_filename_component(folder ${SOURCE} DIRECTORY)
+execute_process(COMMAND ${GLSLANG} -E -DTRISECT_OPENGL -I${folder} ${SOURCE}
+                OUTPUT_VARIABLE text RESULT_VARIABLE result)
+if(NOT result EQUAL 0)
+  message(FATAL_ERROR "${SOURCE} was not preprocessed")
+endif()
+# The version is the caller's to give, with the constants' values. Of the rest no directive is left.
+string(REGEX REPLACE "#[^\n]*\n" "" text "${text}")
+string(REGEX REPLACE "\n\n+" "\n" text "${text}")
+file(WRITE ${HEADER} "const char* const ${NAME} = R\"glsl(${text})glsl\";\n")

@@ -1,0 +1,25 @@
+// What a frame's shaders are made for, and what they find bound. As OpenGL has no specialisation constants the
+// program defines their values ahead of this text; as it has no push constants they are a buffer.
+#ifdef TRISECT_OPENGL
+const uint SURFACE = VALUE_SURFACE;
+const uint SHELL = VALUE_SHELL;
+const bool GROUPS = VALUE_GROUPS != 0u;
+const uint SOLVER = VALUE_SOLVER;
+const bool AOVS = VALUE_AOVS != 0u;
+const bool COUNTS = VALUE_COUNTS != 0u;
+layout(std430, binding = BINDING_PUSH) readonly restrict buffer PushBlock { TilePush push; };
+#else
+layout(constant_id = CONSTANT_SURFACE) const uint SURFACE = SURFACE_PHONG;
+layout(constant_id = CONSTANT_SHELL) const uint SHELL = SHELL_NORMAL;
+layout(constant_id = CONSTANT_GROUPS) const bool GROUPS = false;
+layout(constant_id = CONSTANT_SOLVER) const uint SOLVER = SOLVER_ROBUST;
+layout(constant_id = CONSTANT_AOVS) const bool AOVS = false;
+layout(constant_id = CONSTANT_COUNTS) const bool COUNTS = false;
+layout(push_constant) uniform PushBlock { TilePush push; };
+#endif
+
+layout(std140, binding = BINDING_PARAMS) uniform ParamsBlock { TraceParams params; };
+layout(std430, binding = BINDING_TRIANGLES) readonly restrict buffer TrianglesBlock {
+  Triangle triangles[];
+};
+layout(std430, binding = BINDING_CAGES) readonly restrict buffer CagesBlock { Cage cages[]; };
