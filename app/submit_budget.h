@@ -8,8 +8,9 @@ namespace trisect {
 
 // A submit should keep the device no longer than kSubmitMs: drivers reset a device that does not
 // answer for about two seconds, and a desktop that shares it stutters long before. What a workgroup
-// costs is learned: from the dearest submit so far, since the next rows may be as dear, and the
-// size of a submit no more than doubles from the largest one known.
+// costs is learned: from the dearest submit so far, since the next rows may be as dear, but one
+// that something else held up is forgotten by and by; and the size of a submit no more than doubles
+// from the largest one known.
 class SubmitBudget {
  public:
   static constexpr double kSubmitMs = 100.0;
@@ -23,12 +24,16 @@ class SubmitBudget {
 
   void record(uint32_t groups, double ms) {
     largest_ = std::max(largest_, static_cast<double>(std::max(groups, kFirstGroups)));
-    dearest_ms_per_group_ = std::max(dearest_ms_per_group_, ms / groups);
+    dearest_ms_per_group_ = std::max(kMemory * dearest_ms_per_group_, ms / groups);
   }
 
  private:
   // Before anything is known.
   static constexpr uint32_t kFirstGroups = 16;
+  // What is left of a cost with every submit that is cheaper: a hundredfold is forgotten in 44,
+  // which is less than a frame; the few submits of an empty sky take little from that of what
+  // follows it.
+  static constexpr double kMemory = 0.75;
 
   double largest_ = 0.0;
   double dearest_ms_per_group_ = 0.0;
