@@ -30,7 +30,7 @@ class SubmitBudget {
  private:
   // Before anything is known.
   static constexpr uint32_t kFirstGroups = 16;
-  // What is left of a cost with every submit that is cheaper: a hundredfold is forgotten in 44,
+  // What is left of a cost with every submit that is cheaper: a hundredfold is forgotten in 16,
   // which is less than a frame; the few submits of an empty sky take little from that of what
   // follows it.
   static constexpr double kMemory = 0.75;
