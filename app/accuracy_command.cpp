@@ -12,6 +12,7 @@
 #include "app/cpu_tracer.h"
 #include "app/error.h"
 #include "app/interrupt.h"
+#include "app/json_text.h"
 #include "app/mesh_builder.h"
 #include "app/oracle_tracer.h"
 #include "app/progress.h"
@@ -183,7 +184,7 @@ int accuracy(const AccuracyOptions& options) {
     }
   }
   if (file) {
-    file->write(json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    file->write(json_text(json));
     file->commit();
   }
   return kept ? exit_done : exit_different;

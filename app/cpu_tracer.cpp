@@ -22,11 +22,7 @@ void walk_through(Kernel& kernel, const Kernel::PixelRay& ray, in_float::Walk& w
 
 void trace_on_cpu(const BakedScene& scene, const TraceParams& params, const KernelChoice& choice,
                   Frame& frame, const std::function<void(uint32_t)>& between_rows) {
-  frame.width = params.width;
-  frame.height = params.height;
-  const std::size_t pixels = std::size_t{params.width} * params.height;
-  frame.colors.resize(pixels);
-  frame.aovs.resize(choice.aovs ? pixels : 0);
+  frame.resize(params.width, params.height, choice.aovs);
   const Kernel shared = in_float::kernel_of(scene, params, choice);
   const auto row = [&](uint32_t y) {
     Kernel kernel = shared;

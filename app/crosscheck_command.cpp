@@ -1,15 +1,12 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "app/atomic_file.h"
 #include "app/commands.h"
-#include "app/difference_file.h"
+#include "app/comparison_report.h"
 #include "app/error.h"
-#include "app/frame_comparison.h"
 #include "app/load_scene.h"
 #include "app/trace_scene.h"
 
@@ -28,6 +25,7 @@ Tolerance tolerance_between(Backend a, Backend b, GlPath gl_path) {
 
 int crosscheck(const CrosscheckOptions& options) {
   const RenderOptions& render = options.render;
+  ComparisonFiles files(options.json, options.diff);
   const LoadedScene loaded = load_scene(render);
   std::vector<TraceResult> results;
   for (const Backend backend : options.backends) {
@@ -52,25 +50,13 @@ int crosscheck(const CrosscheckOptions& options) {
     for (std::size_t j = i + 1; j < results.size(); ++j) {
       const Backend a = options.backends[i];
       const Backend b = options.backends[j];
-      const FrameComparison comparison = compare(results[i].frame, results[j].frame);
-      const std::vector<std::string> found =
-          excesses(comparison, tolerance_between(a, b, render.gl_path));
-      kept = kept && found.empty();
-      fmt::print("{} | {}\n{}", backend_name(a), backend_name(b), to_text(comparison));
-      for (const std::string& excess : found) fmt::print("  too far apart: {}\n", excess);
-      nlohmann::ordered_json pair{{"a", backend_name(a)}, {"b", backend_name(b)}};
-      pair.update(to_json(comparison));
-      pair["excesses"] = found;
-      json["pairs"].push_back(pair);
+      json["pairs"].push_back(report_pair(backend_name(a), results[i].frame, backend_name(b),
+                                          results[j].frame,
+                                          tolerance_between(a, b, render.gl_path)));
+      kept = kept && json["pairs"].back()["excesses"].empty();
     }
   }
-  std::optional<AtomicFile> file;
-  if (!options.json.empty()) {
-    file.emplace(options.json);
-    file->write(json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-  }
-  if (!options.diff.empty()) write_difference(results[0].frame, results[1].frame, options.diff);
-  if (file) file->commit();
+  files.write(json, results[0].frame, results[1].frame);
   return kept ? exit_done : exit_different;
 }
 

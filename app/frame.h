@@ -16,6 +16,13 @@ struct Frame {
   std::vector<vec4> colors;     // sRGB-encoded red, green, blue; 1 where a triangle was hit, else 0
   std::vector<PixelAovs> aovs;  // empty if they were not asked for
 
+  void resize(uint32_t new_width, uint32_t new_height, bool with_aovs) {
+    width = new_width;
+    height = new_height;
+    colors.resize(std::size_t{width} * height);
+    aovs.resize(with_aovs ? colors.size() : 0);
+  }
+
   [[nodiscard]] std::size_t hits() const {
     std::size_t count = 0;
     for (const vec4& color : colors) count += color.w > 0.0F ? 1 : 0;

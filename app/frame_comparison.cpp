@@ -56,6 +56,28 @@ void expect_same_size(const Frame& a, const Frame& b) {
                                a.height, b.width, b.height));
 }
 
+// Over all components, in steps of 8 bits.
+struct ColorDifference {
+  double rmse = 0.0;
+  double largest = 0.0;
+};
+
+ColorDifference color_difference(const Frame& a, const Frame& b) {
+  ColorDifference difference;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < a.colors.size(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const double steps =
+          255.0 * (static_cast<double>(a.colors[i][k]) - static_cast<double>(b.colors[i][k]));
+      squares += steps * steps;
+      // Written so that a NaN stays.
+      if (!(std::abs(steps) <= difference.largest)) difference.largest = std::abs(steps);
+    }
+  }
+  difference.rmse = std::sqrt(squares / (3.0 * static_cast<double>(a.colors.size())));
+  return difference;
+}
+
 vec4 mask_color(const Frame& a, const Frame& b, std::size_t pixel) {
   const bool hit_a = is_hit(a, pixel);
   const bool hit_b = is_hit(b, pixel);
@@ -76,21 +98,15 @@ FrameComparison compare(const Frame& a, const Frame& b) {
   expect_same_size(a, b);
   FrameComparison result;
   result.pixels = a.colors.size();
-  double squares = 0.0;
   for (std::size_t i = 0; i < a.colors.size(); ++i) {
     const bool hit_a = is_hit(a, i);
     const bool hit_b = is_hit(b, i);
     if (hit_a || hit_b) ++result.hits;
     if (hit_a != hit_b) ++result.hit_mismatches;
-    for (int k = 0; k < 3; ++k) {
-      const double steps =
-          255.0 * (static_cast<double>(a.colors[i][k]) - static_cast<double>(b.colors[i][k]));
-      squares += steps * steps;
-      // Written so that a NaN stays.
-      if (!(std::abs(steps) <= result.color_max)) result.color_max = std::abs(steps);
-    }
   }
-  result.color_rmse = std::sqrt(squares / (3.0 * static_cast<double>(result.pixels)));
+  const ColorDifference color = color_difference(a, b);
+  result.color_rmse = color.rmse;
+  result.color_max = color.largest;
   result.psnr = 20.0 * std::log10(255.0 / result.color_rmse);
   if (!a.aovs.empty() && !b.aovs.empty()) result.depth = compare_depth(a, b);
   return result;
@@ -155,7 +171,7 @@ nlohmann::ordered_json to_json(const FrameComparison& c) {
 
 Frame comparison_picture(const Frame& a, const Frame& b) {
   expect_same_size(a, b);
-  const double largest = compare(a, b).color_max;
+  const double largest = color_difference(a, b).largest;
   const auto gain = static_cast<float>(largest > 0.0 ? 255.0 / largest : 0.0);
   Frame picture;
   picture.width = 2 * a.width;

@@ -10,6 +10,7 @@
 #include "app/hard_backend.h"
 #include "app/hard_judge.h"
 #include "app/interrupt.h"
+#include "app/json_text.h"
 
 namespace trisect {
 namespace {
@@ -62,7 +63,7 @@ std::string to_json(const HardBackend& backend, const std::vector<HardRow>& rows
   json["driver"] = backend.driver;
   json["rows"] = nlohmann::ordered_json::array();
   for (const HardRow& row : rows) json["rows"].push_back(json_of(row));
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 std::vector<HardRow> run_all(const HardBackend& backend) {

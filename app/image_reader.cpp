@@ -101,11 +101,8 @@ Frame read_exr(const fs::path& path) {
     Imf::InputFile file(path.c_str());
     const Imath::Box2i window = file.header().dataWindow();
     Frame frame;
-    frame.width = static_cast<uint32_t>(window.max.x - window.min.x + 1);
-    frame.height = static_cast<uint32_t>(window.max.y - window.min.y + 1);
-    const std::size_t pixels = std::size_t{frame.width} * frame.height;
-    frame.colors.resize(pixels);
-    frame.aovs.resize(pixels);
+    frame.resize(static_cast<uint32_t>(window.max.x - window.min.x + 1),
+                 static_cast<uint32_t>(window.max.y - window.min.y + 1), true);
     const Imf::ChannelList& channels = file.header().channels();
     const auto present = [&](const Slot& slot) { return has(channels, slot); };
     const std::vector<Slot> colors = color_slots(frame);

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-
 #include "app/cage.h"
 #include "app/interrupt.h"
 #include "app/mesh_builder.h"
+#include "app/stopwatch.h"
 
 namespace trisect {
 namespace {
@@ -14,9 +13,9 @@ namespace {
 // Runs a step and tells its milliseconds.
 template <typename Step>
 auto timed(double& ms, Step&& step) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   auto result = step();
-  ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  ms = watch.milliseconds();
   stop_if_interrupted();
   return result;
 }

@@ -277,13 +277,6 @@ void add_hardcases(CLI::App& app, HardcasesOptions& options, std::string& backen
       ->type_name("D");
 }
 
-Backend backend_of(const std::string& name) {
-  return name == "opengl"   ? Backend::opengl
-         : name == "cpu"    ? Backend::cpu
-         : name == "oracle" ? Backend::oracle
-                            : Backend::vulkan;
-}
-
 void parse_scene(const RenderText& text, RenderOptions& options) {
   if (!text.surface.empty()) options.surface = surface_of(text.surface);
   if (text.gl_path == "fragment") options.gl_path = GlPath::fragment;
@@ -356,7 +349,7 @@ int run(int argc, char** argv) {
     return hardcases(hardcases_options);
   }
   parse_scene(text, options);
-  if (text.backend) options.backend = backend_of(*text.backend);
+  if (text.backend) options.backend = backend_named("--backend", *text.backend);
   return render(options);
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <iterator>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -87,21 +86,24 @@ glm::dvec3 parse_triple(const std::string& option, const std::string& text) {
   return value;
 }
 
+Backend backend_named(const std::string& option, std::string_view name) {
+  for (const Backend backend : kBackends) {
+    if (name == backend_name(backend)) return backend;
+  }
+  throw UsageError(
+      fmt::format("{}: '{}' is not one of: vulkan, opengl, cpu, oracle.", option, name));
+}
+
 std::vector<Backend> parse_backends(const std::string& option, const std::string& text) {
   std::vector<Backend> backends;
   std::string_view rest = text;
   while (true) {
     const std::string_view name = rest.substr(0, rest.find(','));
-    const auto known = std::find_if(std::begin(kBackends), std::end(kBackends),
-                                    [&](Backend b) { return name == backend_name(b); });
-    if (known == std::end(kBackends)) {
-      throw UsageError(
-          fmt::format("{}: '{}' is not one of: vulkan, opengl, cpu, oracle.", option, name));
-    }
-    if (std::find(backends.begin(), backends.end(), *known) != backends.end()) {
+    const Backend backend = backend_named(option, name);
+    if (std::find(backends.begin(), backends.end(), backend) != backends.end()) {
       throw UsageError(fmt::format("{}: '{}' is there twice.", option, name));
     }
-    backends.push_back(*known);
+    backends.push_back(backend);
     if (name.size() == rest.size()) break;
     rest.remove_prefix(name.size() + 1);
   }

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/shared.h"
@@ -86,6 +87,9 @@ void parse_size(const std::string& option, const std::string& text, uint32_t& wi
 // "1,-2.5,3e2". Throws UsageError, naming the option, for anything but three numbers of at most
 // 1e12.
 glm::dvec3 parse_triple(const std::string& option, const std::string& text);
+
+// The back end of that name. Throws UsageError, naming the option, if there is none.
+Backend backend_named(const std::string& option, std::string_view name);
 
 // "vulkan,opengl": two or more, none twice. Throws UsageError, naming the option, for anything
 // else.

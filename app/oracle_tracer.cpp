@@ -38,10 +38,7 @@ OracleFrame trace_with_oracle(const BakedScene& scene, const TraceParams& params
 Frame frame_of(const OracleFrame& answers, const BakedScene& scene, const TraceParams& params) {
   in_float::Kernel kernel = in_float::kernel_of(scene, params, {SOLVER_ROBUST, true, false});
   Frame frame;
-  frame.width = answers.width;
-  frame.height = answers.height;
-  frame.colors.resize(answers.pixels.size());
-  frame.aovs.resize(answers.pixels.size());
+  frame.resize(answers.width, answers.height, true);
   for (uint32_t y = 0; y < frame.height; ++y) {
     for (uint32_t x = 0; x < frame.width; ++x) {
       const std::size_t i = std::size_t{y} * frame.width + x;

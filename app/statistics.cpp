@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/json_text.h"
+
 namespace trisect {
 namespace {
 
@@ -55,7 +57,7 @@ std::string to_json(const RenderOptions& options, const RenderStatistics& statis
   json["load_ms"] = statistics.load_ms;
   json["bake_ms"] = statistics.bake_ms;
   json["upload_ms"] = statistics.upload_ms;
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 std::string to_text(const RenderOptions& options, const RenderStatistics& statistics) {

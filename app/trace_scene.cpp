@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <thread>
 
 #include "app/cpu_tracer.h"
@@ -11,6 +10,7 @@
 #include "app/opengl/tracer.h"
 #include "app/oracle_tracer.h"
 #include "app/progress.h"
+#include "app/stopwatch.h"
 #include "app/vulkan_tracer.h"
 
 namespace trisect {
@@ -58,11 +58,10 @@ void trace_on_host(const TraceRequest& request, uint32_t height, const std::stri
   result.driver = driver;
   for (uint32_t run = 0; run < request.runs; ++run) {
     Progress progress("rendering", height);
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     frame_once([&](uint32_t rows) { progress.show(rows); });
     FrameTime time;
-    time.wall_ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    time.wall_ms = watch.milliseconds();
     result.frames.push_back(time);
     stop_if_interrupted();
   }

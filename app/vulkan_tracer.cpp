@@ -1,28 +1,20 @@
 #include "app/vulkan_tracer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <span>
 #include <stdexcept>
 
 #include "app/buffer_limits.h"
 #include "app/cage.h"
 #include "app/kernels.h"
+#include "app/stopwatch.h"
+#include "app/workgroups.h"
 
 namespace trisect {
 namespace {
 
 // Bytes moved between host and device at a time.
 constexpr std::size_t kStagingBytes = std::size_t{32} << 20U;
-
-constexpr uint32_t kGroupRays = TILE_SIZE * TILE_SIZE;
-// Of one submit.
-constexpr uint32_t kMostGroups = 4096;
-
-double milliseconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-      .count();
-}
 
 }  // namespace
 
@@ -56,16 +48,16 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
           device,
           choice.aovs ? std::size_t{width} * band_rows_ * sizeof(PixelAovs) : sizeof(PixelAovs),
           gpu::Memory::device, "AOVs"),
-      queue_(device, kMostGroups * kGroupRays),
+      queue_(device, groups_of_band(width, 0, band_rows_).most() * kGroupRays),
       bound_(device, kernel_,
              {&params_, &triangles_, &colors_, &aovs_buffer_, &cages_, &queue_.paused(),
               &queue_.queued()}) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   staging_.upload(commands_, std::as_bytes(std::span(scene.triangles)), triangles_);
   if (!scene.cages.empty()) {
     staging_.upload(commands_, std::as_bytes(std::span(scene.cages)), cages_);
   }
-  upload_ms_ = milliseconds_since(start);
+  upload_ms_ = watch.milliseconds();
 }
 
 FrameTime VulkanTracer::render(const TraceParams& params, Frame& frame,
@@ -73,14 +65,11 @@ FrameTime VulkanTracer::render(const TraceParams& params, Frame& frame,
   if (params.width != width_ || params.height != height_) {
     throw std::logic_error("the trace parameters are not for this tracer's image size");
   }
-  frame.width = width_;
-  frame.height = height_;
-  frame.colors.resize(std::size_t{width_} * height_);
-  frame.aovs.resize(aovs_ ? frame.colors.size() : 0);
+  frame.resize(width_, height_, aovs_);
   const std::span<vec4> colors(frame.colors);
   const std::span<PixelAovs> aovs(frame.aovs);
 
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   FrameTime time;
   staging_.upload(commands_, std::as_bytes(std::span(&params, 1)), params_);
   for (uint32_t row = 0; row < height_; row += band_rows_) {
@@ -94,18 +83,16 @@ FrameTime VulkanTracer::render(const TraceParams& params, Frame& frame,
                         std::as_writable_bytes(aovs.subspan(first, count)));
     }
   }
-  time.wall_ms = milliseconds_since(start);
+  time.wall_ms = watch.milliseconds();
   return time;
 }
 
 double VulkanTracer::render_band(uint32_t first_row, uint32_t rows,
                                  const std::function<void()>& between_submits) {
-  const uint32_t groups_x = (width_ + TILE_SIZE - 1) / TILE_SIZE;
-  const uint32_t begin = first_row / TILE_SIZE * groups_x;
-  const uint32_t end = begin + (rows + TILE_SIZE - 1) / TILE_SIZE * groups_x;
+  const GroupRange groups = groups_of_band(width_, first_row, rows);
   double gpu_ms = 0.0;
-  for (uint32_t group = begin; group < end;) {
-    const uint32_t count = std::min({budget_.groups(), end - group, kMostGroups});
+  for (uint32_t group = groups.begin; group < groups.end;) {
+    const uint32_t count = std::min({budget_.groups(), groups.end - group, groups.most()});
     const double ms = queue_.run(commands_, kernel_, bound_, TilePush{{}, group, first_row}, count,
                                  kGroupRays, between_submits);
     gpu_ms += ms;

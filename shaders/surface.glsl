@@ -144,14 +144,12 @@ real sphere_derivative(vec3 T, vec3 dT, vec3 D, vec3 dD, real s, vec3 vertex, ve
   real A = c * DD;
   real B = c * dot3(x0, D) + dot3(D, N);
   real dA = dc * DD + real(2.0) * c * dot3(D, dD);
-  // Mesa 22.3 rounds these terms in another order than it is told, but for this one.
-  real dB = dot3(dD, N) + c * (dot3(dT, D) + dot3(x0, dD)) + dc * dot3(x0, D);
+  EXACT real dB = dot3(dD, N) + c * (dot3(dT, D) + dot3(x0, dD)) + dc * dot3(x0, D);
   real dC = dc * xx + real(2.0) * (c * dot3(x0, dT) + dot3(dT, N));
   real C = c * xx + real(2.0) * dot3(x0, N);
   real discriminant = B * B - A * C;
   if (discriminant <= real(0.0)) return -(dC + s * dB) / B;
   // A s^2 + 2 B s + C = 0, differentiated; A s + B is the square root of the discriminant with B's sign.
-  // By Horner's rule, into which Mesa would turn any other order.
   return -((dA * s + real(2.0) * dB) * s + dC) / (real(2.0) * (A * s + B));
 }
 

@@ -4,7 +4,6 @@
 #include <EGL/eglext.h>
 
 #include <array>
-#include <stdexcept>
 
 #include "app/opengl/gl.h"
 #include "vk/result.h"

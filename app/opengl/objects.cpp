@@ -11,15 +11,19 @@ struct Shader : Owned<[](GLuint name) { glDeleteShader(name); }> {
   using Owned::Owned;
 };
 
-// What glGetShaderInfoLog or glGetProgramInfoLog say, on one line.
-template <typename GetInfoLog>
-std::string log_of(GLuint name, GetInfoLog get) {
+// Throws gpu::Error with the compiler's words, on one line, if a shader's or a program's status is
+// not true. get, get_log: glGetShaderiv and glGetShaderInfoLog, or those of programs.
+template <typename Get, typename GetLog>
+void expect_status(GLuint name, GLenum status, Get get, GetLog get_log, const char* what) {
+  GLint done = GL_FALSE;
+  get(name, status, &done);
+  if (done == GL_TRUE) return;
   std::string text(2000, '\0');
   GLsizei length = 0;
-  get(name, static_cast<GLsizei>(text.size()), &length, text.data());
+  get_log(name, static_cast<GLsizei>(text.size()), &length, text.data());
   text.resize(static_cast<std::size_t>(length));
   for (char& c : text) c = c == '\n' ? ' ' : c;
-  return text;
+  throw gpu::Error(fmt::format("OpenGL did not {}: {}", what, text));
 }
 
 Shader compiled(const std::string& head, const Stage& stage) {
@@ -27,12 +31,8 @@ Shader compiled(const std::string& head, const Stage& stage) {
   const char* const texts[] = {head.c_str(), stage.text};
   glShaderSource(shader.get(), 2, texts, nullptr);
   glCompileShader(shader.get());
-  GLint done = GL_FALSE;
-  glGetShaderiv(shader.get(), GL_COMPILE_STATUS, &done);
-  if (done != GL_TRUE) {
-    throw gpu::Error("OpenGL did not compile a shader: " +
-                     log_of(shader.get(), glGetShaderInfoLog));
-  }
+  expect_status(shader.get(), GL_COMPILE_STATUS, glGetShaderiv, glGetShaderInfoLog,
+                "compile a shader");
   return shader;
 }
 
@@ -52,12 +52,8 @@ Program make_program(const std::string& head, const std::vector<Stage>& stages) 
     glAttachShader(program.get(), shaders.back().get());
   }
   glLinkProgram(program.get());
-  GLint done = GL_FALSE;
-  glGetProgramiv(program.get(), GL_LINK_STATUS, &done);
-  if (done != GL_TRUE) {
-    throw gpu::Error("OpenGL did not link a program: " +
-                     log_of(program.get(), glGetProgramInfoLog));
-  }
+  expect_status(program.get(), GL_LINK_STATUS, glGetProgramiv, glGetProgramInfoLog,
+                "link a program");
   return program;
 }
 

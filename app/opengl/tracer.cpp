@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 #include <stdexcept>
@@ -13,19 +12,12 @@
 #include "app/cage.h"
 #include "app/kernels.h"
 #include "app/ray_queue.h"
+#include "app/stopwatch.h"
+#include "app/workgroups.h"
 #include "vk/result.h"
 
 namespace trisect::opengl {
 namespace {
-
-constexpr uint32_t kGroupRays = TILE_SIZE * TILE_SIZE;
-// Of one submit of the compute path.
-constexpr uint32_t kMostGroups = 4096;
-
-double milliseconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-      .count();
-}
 
 std::string device_name() {
   return reinterpret_cast<const char*>(glGetString(GL_RENDERER));
@@ -152,14 +144,15 @@ Tracer::Tracer(const BakedScene& scene, uint32_t width, uint32_t height, const K
       push_(sizeof(TilePush), "push constants"),
       queued_(sizeof(uint32_t), "number of paused rays"),
       paused_(path == GlPath::compute
-                  ? std::size_t{2} * kMostGroups * kGroupRays * sizeof(PausedRay)
+                  ? std::size_t{2} * groups_of_band(width, 0, band_rows_).most() * kGroupRays *
+                        sizeof(PausedRay)
                   : std::size_t{width} * band_rows_ * sizeof(PausedRay),
               "paused rays"),
       program_(program_for(scene, choice, path)) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   triangles_.write(std::as_bytes(std::span(scene.triangles)));
   if (!scene.cages.empty()) cages_.write(std::as_bytes(std::span(scene.cages)));
-  upload_ms_ = milliseconds_since(start);
+  upload_ms_ = watch.milliseconds();
   if (path == GlPath::compute) {
     const std::size_t pixels = std::size_t{width} * band_rows_;
     colors_.emplace(pixels * sizeof(vec4), "colors");
@@ -189,12 +182,9 @@ FrameTime Tracer::render(const TraceParams& params, Frame& frame,
   if (params.width != width_ || params.height != height_) {
     throw std::logic_error("the trace parameters are not for this tracer's image size");
   }
-  frame.width = width_;
-  frame.height = height_;
-  frame.colors.resize(std::size_t{width_} * height_);
-  frame.aovs.resize(aovs_ ? frame.colors.size() : 0);
+  frame.resize(width_, height_, aovs_);
 
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   FrameTime time;
   params_.write(std::as_bytes(std::span(&params, 1)));
   bind();
@@ -209,7 +199,7 @@ FrameTime Tracer::render(const TraceParams& params, Frame& frame,
     }
   }
   check("a frame was rendered");
-  time.wall_ms = milliseconds_since(start);
+  time.wall_ms = watch.milliseconds();
   return time;
 }
 
@@ -226,19 +216,17 @@ uint32_t Tracer::submit(const TilePush& push, const std::function<void()>& work)
 
 double Tracer::compute_band(uint32_t first_row, uint32_t rows,
                             const std::function<void()>& between_submits) {
-  const uint32_t groups_x = (width_ + TILE_SIZE - 1) / TILE_SIZE;
-  const uint32_t begin = first_row / TILE_SIZE * groups_x;
-  const uint32_t end = begin + (rows + TILE_SIZE - 1) / TILE_SIZE * groups_x;
+  const GroupRange groups = groups_of_band(width_, first_row, rows);
   double total_ms = 0.0;
-  for (uint32_t group = begin; group < end;) {
-    const uint32_t count = std::min({budget_.groups(), end - group, kMostGroups});
-    const auto start = std::chrono::steady_clock::now();
-    walk_all(RayQueue::kSteps, kMostGroups * kGroupRays, [&](const QueuePush& queue) {
-      const uint32_t groups =
+  for (uint32_t group = groups.begin; group < groups.end;) {
+    const uint32_t count = std::min({budget_.groups(), groups.end - group, groups.most()});
+    const Stopwatch watch;
+    walk_all(RayQueue::kSteps, groups.most() * kGroupRays, [&](const QueuePush& queue) {
+      const uint32_t submitted =
           queue.pass == 0 ? count : (queue.resumed + kGroupRays - 1) / kGroupRays;
-      return submit({queue, group, first_row}, [&] { glDispatchCompute(groups, 1, 1); });
+      return submit({queue, group, first_row}, [&] { glDispatchCompute(submitted, 1, 1); });
     });
-    const double ms = milliseconds_since(start);
+    const double ms = watch.milliseconds();
     total_ms += ms;
     group += count;
     budget_.record(count, ms);
@@ -264,11 +252,11 @@ double Tracer::draw_band(const TraceParams& params, uint32_t first_row, uint32_t
     const uint32_t count = std::min(budget_.groups(), rows - row);
     glScissor(0, static_cast<GLint>(row), static_cast<GLsizei>(width_),
               static_cast<GLsizei>(count));
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     walk_all(RayQueue::kSteps, 0, [&](const QueuePush& queue) {
       return submit({queue, lowest, first_row}, [] { glDrawArrays(GL_TRIANGLE_STRIP, 0, 4); });
     });
-    const double ms = milliseconds_since(start);
+    const double ms = watch.milliseconds();
     total_ms += ms;
     row += count;
     budget_.record(count, ms);

@@ -3,14 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/quantiles.h"
+
 namespace trisect::test {
 namespace {
-
-double degrees_between(const vec4& a, const vec4& b) {
-  const glm::dvec3 u(a);
-  const glm::dvec3 v(b);
-  return glm::degrees(std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)));
-}
 
 // The larger one; a NaN is larger than anything.
 void raise(double& largest, double value) {
@@ -38,8 +34,9 @@ FrameDifference difference(const Frame& a, const Frame& b) {
       ++result.patch_mismatches;
       continue;
     }
-    raise(result.normal_degrees, degrees_between(p.normal_z, q.normal_z));
-    raise(result.normal_degrees, degrees_between(p.geometric_u, q.geometric_u));
+    raise(result.normal_degrees, degrees_between(glm::dvec3(p.normal_z), glm::dvec3(q.normal_z)));
+    raise(result.normal_degrees,
+          degrees_between(glm::dvec3(p.geometric_u), glm::dvec3(q.geometric_u)));
     raise(result.weights, std::abs(static_cast<double>(p.geometric_u.w - q.geometric_u.w)));
     raise(result.weights, std::abs(static_cast<double>(p.v - q.v)));
   }
