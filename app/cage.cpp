@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "app/enclosing_ball.h"
+#include "app/kernel_float.h"
 #include "app/surface_double.h"
 #include "app/widen.h"
 
@@ -20,6 +21,11 @@ using glm::dvec3;
 constexpr double kClose = 0.02;
 constexpr double kTangentsClose = 0.1;
 constexpr int kMostLevels = 6;
+
+// Rays are quick where they go through a part's cone (Cage::cone), whose sine should be at most so
+// large; else the part is divided, for this reason no further than to 4^2 parts of a patch.
+constexpr float kWide = 0.3F;
+constexpr int kLevelsForCones = 2;
 
 // sigma is sampled at the weights with this denominator; between the samples it may stray further
 // by this factor.
@@ -48,7 +54,12 @@ struct Patch {
   in_double::Triangle tri;
   std::array<dvec3, 3> P;
   std::array<dvec3, 3> D;
+  glm::vec3 bulges;  // the kernels' edge_bulges
 };
+
+// Control points b300, b030, b003, b210, b120, b021, b012, b102, b201, b111 of a cubic Bezier
+// triangle; b_ijk belongs to w_0^i w_1^j w_2^k.
+using Net = std::array<dvec3, 10>;
 
 struct Fit {
   Quadratic q;
@@ -57,8 +68,12 @@ struct Fit {
   double bend = 0.0;           // Cage::bend
 };
 
-Patch patch_of(const SurfaceChoice& choice, const Triangle& single) {
-  Patch patch{shape_of(choice), widen(single), {}, {}};
+Patch patch_of(const SurfaceChoice& choice, const Triangle& single, in_float::Kernel& kernel) {
+  Patch patch{shape_of(choice),
+              widen(single),
+              {},
+              {},
+              kernel.edge_bulges(single, static_cast<float>(choice.alpha))};
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
     patch.P[k] = dvec3(patch.tri.Position[i]);
@@ -115,6 +130,22 @@ Sample sample(const Patch& patch, const Quadratic& q, const dvec3& w) {
            sigma.v - 2.0 * q.blossom(w, {-1.0, 0.0, 1.0})}};
 }
 
+std::vector<Sample> samples_of(const Patch& patch, const Part& part, const Quadratic& q) {
+  std::vector<Sample> samples;
+  for (int i = 0; i <= kSamples; ++i) {
+    for (int j = 0; i + j <= kSamples; ++j) {
+      const dvec3 l = dvec3(kSamples - i - j, i, j) / static_cast<double>(kSamples);
+      samples.push_back(sample(patch, q, part.origin + l * part.size));
+    }
+  }
+  return samples;
+}
+
+// Written so that a NaN counts as infinite.
+void raise(double& most, double value) {
+  if (!(value <= most)) most = value;
+}
+
 Fit fit(const Patch& patch, const Part& part) {
   Fit fit;
   fit.q = through(
@@ -125,21 +156,14 @@ Fit fit(const Patch& patch, const Part& part) {
   const dvec3 size = glm::max(glm::abs(fit.q.corner), glm::abs(fit.q.edge));
   const double rounded = rounding * std::max({size.x, size.y, size.z}) * longest_D;
   if (patch.shape.surface == SURFACE_PHONG && patch.shape.shell == SHELL_NORMAL) {
+    // To the bit as the kernels have it from the triangle.
+    fit.q.corner = dvec3(0.0);
+    fit.q.edge = dvec3(patch.bulges) * 0.5;
     fit.stray = rounded;
     fit.tangent_stray = rounded;
     return fit;
   }
-  std::vector<Sample> samples;
-  for (int i = 0; i <= kSamples; ++i) {
-    for (int j = 0; i + j <= kSamples; ++j) {
-      const dvec3 l = dvec3(kSamples - i - j, i, j) / static_cast<double>(kSamples);
-      samples.push_back(sample(patch, fit.q, part.origin + l * part.size));
-    }
-  }
-  // Written so that a NaN counts as infinite.
-  const auto raise = [](double& most, double value) {
-    if (!(value <= most)) most = value;
-  };
+  const std::vector<Sample> samples = samples_of(patch, part, fit.q);
   for (const Sample& a : samples) {
     const dvec3 D = in_double::weigh(a.w, patch.D[0], patch.D[1], patch.D[2]);
     raise(fit.stray, glm::length(D) * std::abs(a.e));
@@ -167,8 +191,13 @@ float rounded_up(double x) {
   return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
 }
 
-// The ball around the control points of T + q D over a part, widened by the stray.
-Ball part_ball(const Patch& patch, const Part& part, const Fit& fit) {
+// The part with so much of its size around it on every side.
+Part enlarged(const Part& part, double margin) {
+  return {part.origin - dvec3(margin * part.size), part.size * (1.0 + 3.0 * margin)};
+}
+
+// The cubic Bezier triangle T + q D over a part.
+Net net_of(const Patch& patch, const Part& part, const Quadratic& q) {
   std::array<dvec3, 3> w{};
   std::array<dvec3, 3> T{};
   std::array<dvec3, 3> D{};
@@ -178,21 +207,85 @@ Ball part_ball(const Patch& patch, const Part& part, const Fit& fit) {
     T[i] = in_double::weigh(w[i], patch.P[0], patch.P[1], patch.P[2]);
     D[i] = in_double::weigh(w[i], patch.D[0], patch.D[1], patch.D[2]);
   }
+  const auto at = [&](std::size_t a, std::size_t b, std::size_t c) {
+    const dvec3 lifted =
+        D[a] * q.blossom(w[b], w[c]) + D[b] * q.blossom(w[c], w[a]) + D[c] * q.blossom(w[a], w[b]);
+    return (T[a] + T[b] + T[c] + lifted) / 3.0;
+  };
+  return {at(0, 0, 0), at(1, 1, 1), at(2, 2, 2), at(0, 0, 1), at(0, 1, 1),
+          at(1, 1, 2), at(1, 2, 2), at(0, 2, 2), at(0, 0, 2), at(0, 1, 2)};
+}
+
+// The ball around a part, its overlap with the next ones included.
+Ball part_ball(const Patch& patch, const Part& part, const Fit& fit) {
   std::vector<Ball> points;
-  const auto q = [&](std::size_t a, std::size_t b) { return fit.q.blossom(w[a], w[b]); };
-  for (std::size_t a = 0; a < 3; ++a) {
-    points.push_back({T[a] + D[a] * q(a, a), fit.stray});
-    for (std::size_t b = 0; b < 3; ++b) {
-      if (a == b) continue;
-      points.push_back(
-          {(T[a] * 2.0 + T[b] + D[b] * q(a, a) + D[a] * (2.0 * q(a, b))) / 3.0, fit.stray});
-    }
+  for (const dvec3& point : net_of(patch, enlarged(part, OVERLAP), fit.q)) {
+    points.push_back({point, fit.stray});
   }
-  points.push_back(
-      {(T[0] + T[1] + T[2] + D[0] * q(1, 2) + D[1] * q(2, 0) + D[2] * q(0, 1)) / 3.0, fit.stray});
   Ball ball = enclosing_ball(points);
   ball.radius += 1e-6 * (ball.radius + glm::length(ball.center));  // rounding to single precision
   return ball;
+}
+
+// The most by which a matrix lengthens a vector.
+double norm_of(const glm::dmat2& m) {
+  // Half the sum and half the difference of its singular values.
+  return 0.5 * (std::hypot(m[0][0] + m[1][1], m[0][1] - m[1][0]) +
+                std::hypot(m[0][0] - m[1][1], m[0][1] + m[1][0]));
+}
+
+// How far S_u and S_v stray over an enlarged part from those of its cage.
+double tangents_stray(const Patch& patch, const Part& part, const Fit& fit) {
+  if (fit.bend == 0.0) return fit.tangent_stray;
+  double most = 0.0;
+  for (const Sample& a : samples_of(patch, part, fit.q)) {
+    const dvec3 D = in_double::weigh(a.w, patch.D[0], patch.D[1], patch.D[2]);
+    raise(most, glm::length(D * a.gradient.x + (patch.D[1] - patch.D[0]) * a.e));
+    raise(most, glm::length(D * a.gradient.y + (patch.D[2] - patch.D[0]) * a.e));
+  }
+  return std::max(kBetweenSamples * most, fit.tangent_stray);
+}
+
+// Cage::cone. S_u and S_v at a point are the same convex combination of the control vectors u_i and
+// v_i; so is their mean along a line from one point to another, with which S differs between them.
+// Seen along a direction d, on the tangent plane with normal n and mean tangents M0, that mean is
+// M0 (1 + E - t g^T), t the tangent of the angle between d and n, E and g those of (u_i, v_i): it
+// is one to one if |E| + t |g| < 1 for all i.
+vec4 normal_cone(const Patch& patch, const Part& part, const Fit& fit) {
+  const vec4 none(0.0F, 0.0F, 0.0F, NO_CONE);
+  const Part large = enlarged(part, CONE_MARGIN);
+  const Net b = net_of(patch, large, fit.q);
+  const std::array<dvec3, 6> u{b[3] - b[0], b[1] - b[4], b[6] - b[7],
+                               b[4] - b[3], b[9] - b[8], b[5] - b[9]};
+  const std::array<dvec3, 6> v{b[8] - b[0], b[5] - b[4], b[2] - b[7],
+                               b[9] - b[3], b[7] - b[8], b[6] - b[9]};
+  dvec3 mean_u(0.0);
+  dvec3 mean_v(0.0);
+  for (std::size_t i = 0; i < 6; ++i) {
+    mean_u += u[i] / 6.0;
+    mean_v += v[i] / 6.0;
+  }
+  const dvec3 n = glm::normalize(glm::cross(mean_u, mean_v));
+  const dvec3 x = glm::normalize(mean_u);
+  const dvec3 y = glm::cross(n, x);
+  const auto in_plane = [&](const dvec3& a) { return glm::dvec2(glm::dot(a, x), glm::dot(a, y)); };
+  const glm::dmat2 inverse = glm::inverse(glm::dmat2(in_plane(mean_u), in_plane(mean_v)));
+  const double stray = tangents_stray(patch, large, fit) * std::abs(large.size) / 3.0 *
+                       std::sqrt(2.0) * norm_of(inverse);
+  double steepest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 6; ++i) {
+    const glm::dmat2 change =
+        glm::dmat2(in_plane(u[i]), in_plane(v[i])) * inverse - glm::dmat2(1.0);
+    const double bend =
+        glm::length(glm::dvec2(glm::dot(u[i], n), glm::dot(v[i], n)) * inverse) + stray;
+    const double least = (1.0 - norm_of(change) - stray) / bend;
+    // Written so that a NaN has no cone.
+    if (!(least >= steepest)) steepest = least;
+  }
+  if (!(steepest > 0.1)) return none;
+  // Of the ray's direction and the axis in single precision.
+  constexpr double rounding = 1e-5;
+  return {glm::vec3(n), static_cast<float>(1.0 / std::hypot(1.0, steepest) + rounding)};
 }
 
 Cage cage_of(const Patch& patch, const Part& part, const Fit& fit, uint32_t triangle) {
@@ -207,6 +300,7 @@ Cage cage_of(const Patch& patch, const Part& part, const Fit& fit, uint32_t tria
   cage.node = vec4(glm::vec3(part.origin), static_cast<float>(part.size));
   cage.corner = vec4(glm::vec3(fit.q.corner), rounded_up(fit.stray));
   cage.edge = vec4(glm::vec3(fit.q.edge), rounded_up(fit.tangent_stray));
+  cage.cone = normal_cone(patch, part, fit);
   cage.triangle = triangle;
   cage.bend = fit.bend > 0.0 ? rounded_up(fit.bend) : 0.0F;
   // Less than the roundings of a position.
@@ -225,18 +319,16 @@ void cage_part(const Patch& patch, const Part& part, int level, uint32_t triangl
   const double size = patch.tri.TriNormal.w * std::abs(part.size);
   const bool close =
       found.stray <= kClose * size && found.tangent_stray <= kTangentsClose * patch.tri.TriNormal.w;
-  if (close || level == kMostLevels) {
-    cages.push_back(cage_of(patch, part, found, triangle));
-    return;
-  }
-  const std::size_t group = cages.size();
+  const std::size_t index = cages.size();
   cages.push_back(cage_of(patch, part, found, triangle));
+  const bool steep = cages[index].cone.w <= kWide || level >= kLevelsForCones;
+  if ((close && steep) || level == kMostLevels) return;
   const double half = part.size * 0.5;
   for (int k = 0; k < 3; ++k) {
     cage_part(patch, {part.origin + corner(k) * half, half}, level + 1, triangle, cages);
   }
   cage_part(patch, {part.origin + dvec3(half), -half}, level + 1, triangle, cages);
-  cages[group].skip = static_cast<uint32_t>(cages.size() - group - 1);
+  cages[index].skip = static_cast<uint32_t>(cages.size() - index - 1);
 }
 
 }  // namespace
@@ -249,8 +341,11 @@ bool has_groups(const BakedScene& scene) {
 std::vector<Cage> bake_cages(const BakedScene& scene) {
   std::vector<Cage> cages;
   cages.reserve(scene.triangles.size());
+  const TraceParams no_frame{};
+  in_float::Kernel kernel = in_float::kernel_of(scene, no_frame, {});
   for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
-    cage_part(patch_of(scene.choice, scene.triangles[t]), {}, 0, static_cast<uint32_t>(t), cages);
+    cage_part(patch_of(scene.choice, scene.triangles[t], kernel), {}, 0, static_cast<uint32_t>(t),
+              cages);
   }
   return cages;
 }

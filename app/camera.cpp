@@ -71,10 +71,13 @@ void set_rays(const Camera& camera, const dvec3& origin, double radius, double n
     depth = std::clamp(2.0 * radius / corner_slope, near, depth);
   }
   const double scale = depth / near;
-  const dvec3 middle = near_point(0.0, 0.0) * scale;
-  params.anchor = vec4(glm::vec3(eye + middle), static_cast<float>(glm::length(middle)));
-  params.anchor_dx = vec4(glm::vec3(dx * scale), 0.0F);
-  params.anchor_dy = vec4(glm::vec3(dy * scale), 0.0F);
+  const auto axis = [](const dvec3& a, double w) {
+    return vec4(glm::vec3(glm::normalize(a)), static_cast<float>(w));
+  };
+  params.anchor = vec4(glm::vec3(eye + near_point(0.0, 0.0) * scale), static_cast<float>(depth));
+  params.frame_x = axis(dx, glm::length(dx) * scale);
+  params.frame_y = axis(dy, glm::length(dy) * scale);
+  params.frame_z = axis(forward, near - depth);
 }
 
 }  // namespace trisect

@@ -15,7 +15,9 @@ constexpr int kSteps = std::numeric_limits<int>::max();
 using in_float::Kernel;
 
 void walk_through(Kernel& kernel, const Kernel::PixelRay& ray, in_float::Walk& walk) {
-  for (uint pass = 0; pass == 0 || !kernel.is_through(walk); ++pass) kernel.go_on(ray, pass, walk);
+  for (uint pass = 0; pass == 0 || !kernel.is_through(ray, walk); ++pass) {
+    kernel.go_on(ray, pass, walk);
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/accel.h"
 #include "app/commands.h"
 #include "app/comparison_report.h"
 #include "app/error.h"
@@ -29,8 +30,10 @@ int crosscheck(const CrosscheckOptions& options) {
   const LoadedScene loaded = load_scene(render);
   std::vector<TraceResult> results;
   for (const Backend backend : options.backends) {
+    const Accel accel = chosen_accel(render, backend, loaded.scene.cages.size());
     results.push_back(trace_scene({backend, render.gl_path, render.device, false, 1, false},
-                                  loaded.scene, loaded.params, {render.solver, true, false}));
+                                  loaded.scene, loaded.params,
+                                  {render.solver, true, false, accel}));
     const std::string path = backend != Backend::opengl           ? ""
                              : render.gl_path == GlPath::fragment ? " (fragment)"
                                                                   : " (compute)";

@@ -5,10 +5,17 @@
 
 namespace trisect {
 
+// Which patches a ray is tried against.
+enum class Accel {
+  list,   // all of them
+  tiles,  // those that its tile of the image touches: primary rays, robust solver
+};
+
 struct KernelChoice {
   uint solver = SOLVER_ROBUST;  // needs the scene's cages
   bool aovs = false;            // frames have more than colour
   bool counts = false;          // evaluations and candidates, in the AOVs
+  Accel accel = Accel::list;
 };
 
 }  // namespace trisect

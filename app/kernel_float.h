@@ -41,7 +41,13 @@ struct Kernel {
 // The order is the kernel's.
 #include "shaders/robust.glsl"
 #include "shaders/shading.glsl"
+// Here a ray's tile means nothing.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+#include "shaders/every_part.glsl"
+#pragma GCC diagnostic pop
 #include "shaders/trace.glsl"
+#include "shaders/view_part.glsl"
 };
 
 #undef real

@@ -6,8 +6,13 @@ namespace trisect {
 namespace {
 
 // Written at build time: arrays of SPIR-V words.
+#include "bin_parts.spv.h"
 #include "cast_rays.spv.h"
+#include "fill_sky.spv.h"
 #include "trace_list.spv.h"
+#include "trace_tiles.spv.h"
+#include "trace_undecided.spv.h"
+#include "view_parts.spv.h"
 // Strings of GLSL.
 #include "full_screen.vert.glsl.h"
 #include "trace_list.comp.glsl.h"
@@ -16,21 +21,30 @@ namespace {
 }  // namespace
 
 const std::span<const uint32_t> kTraceListSpirv(trace_list_spirv);
-
+const std::span<const uint32_t> kViewPartsSpirv(view_parts_spirv);
+const std::span<const uint32_t> kBinPartsSpirv(bin_parts_spirv);
+const std::span<const uint32_t> kFillSkySpirv(fill_sky_spirv);
+const std::span<const uint32_t> kTraceTilesSpirv(trace_tiles_spirv);
+const std::span<const uint32_t> kTraceUndecidedSpirv(trace_undecided_spirv);
 const std::span<const uint32_t> kCastRaysSpirv(cast_rays_spirv);
 
 const char* const kTraceListComp = trace_list_comp_glsl;
 const char* const kTraceListFrag = trace_list_frag_glsl;
 const char* const kFullScreenVert = full_screen_vert_glsl;
 
-gpu::KernelInterface trace_list_interface() {
+gpu::KernelInterface frame_interface() {
   return {{{BINDING_PARAMS, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
            {BINDING_TRIANGLES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {BINDING_COLOR, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {BINDING_AOVS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {BINDING_CAGES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {BINDING_QUEUE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-           {BINDING_QUEUED, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}},
+           {BINDING_QUEUED, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+           {BINDING_VIEW_PARTS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+           {BINDING_TILE_COUNTS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+           {BINDING_TILE_PARTS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+           {BINDING_TILE_ORDER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+           {BINDING_TILES_SEEN, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}},
           sizeof(TilePush)};
 }
 

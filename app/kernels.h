@@ -10,6 +10,11 @@
 namespace trisect {
 
 extern const std::span<const uint32_t> kTraceListSpirv;
+extern const std::span<const uint32_t> kViewPartsSpirv;
+extern const std::span<const uint32_t> kBinPartsSpirv;
+extern const std::span<const uint32_t> kFillSkySpirv;
+extern const std::span<const uint32_t> kTraceTilesSpirv;
+extern const std::span<const uint32_t> kTraceUndecidedSpirv;
 extern const std::span<const uint32_t> kCastRaysSpirv;
 
 // GLSL for OpenGL, without a version; frame_buffers.glsl says what else goes ahead of it.
@@ -17,7 +22,8 @@ extern const char* const kTraceListComp;
 extern const char* const kTraceListFrag;
 extern const char* const kFullScreenVert;
 
-gpu::KernelInterface trace_list_interface();
+// Of the kernels that make a frame: they share a descriptor set.
+gpu::KernelInterface frame_interface();
 gpu::KernelInterface cast_rays_interface();
 
 }  // namespace trisect

@@ -30,6 +30,7 @@ int fail(int code, const std::string& message) {
 struct RenderText {
   std::string surface;
   std::optional<std::string> backend;
+  std::optional<std::string> accel;
   std::optional<std::string> gl_path;
   std::optional<std::string> preset;
   std::optional<std::string> shell;
@@ -106,6 +107,12 @@ void add_scene(CLI::App* command, RenderOptions& options, RenderText& text) {
                    "How roots are found: robust (the first one, surely) or bisect (the thesis's), "
                    "default robust")
       ->check(one_of({"robust", "bisect"}))
+      ->type_name("NAME");
+  command
+      ->add_option("--accel", text.accel,
+                   "What a ray is tried against: list (every patch, the thesis's), tiles (those "
+                   "that its tile of the image touches; vulkan, robust) or auto, default auto")
+      ->check(one_of({"list", "tiles", "auto"}))
       ->type_name("NAME");
   command
       ->add_option("--preset", text.preset,
@@ -286,6 +293,8 @@ void parse_scene(const RenderText& text, RenderOptions& options) {
   }
   if (text.shell) options.shell = shell_of(*text.shell);
   if (text.solver) options.solver = *text.solver == "bisect" ? SOLVER_BISECT : SOLVER_ROBUST;
+  if (text.accel == "list") options.accel = Accel::list;
+  if (text.accel == "tiles") options.accel = Accel::tiles;
   if (text.size) parse_size("--size", *text.size, options.width, options.height);
   if (text.eye) options.eye = parse_triple("--eye", *text.eye);
   if (text.target) options.target = parse_triple("--target", *text.target);

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/kernel_choice.h"
 #include "app/shared.h"
 #include "app/tolerance.h"
 
@@ -28,6 +29,7 @@ struct RenderOptions {
   double alpha = 0.65;
   uint solver = SOLVER_ROBUST;
   uint32_t rank = 10;
+  std::optional<Accel> accel;  // by itself if not given
   bool evals = false;
   std::optional<glm::dvec3> eye;
   std::optional<glm::dvec3> target;

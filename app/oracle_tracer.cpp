@@ -11,17 +11,18 @@ using glm::dvec3;
 OraclePixelRay oracle_pixel_ray(const TraceParams& params, uint32_t x, uint32_t y) {
   const double px = x + 0.5;
   const double py = y + 0.5;
-  const dvec3 to_near =
-      dvec3(params.ray_corner) + dvec3(params.ray_dx) * px + dvec3(params.ray_dy) * py;
-  const double near_distance = glm::length(to_near);
-  const dvec3 aside = dvec3(params.anchor_dx) * (px - 0.5 * params.width) +
-                      dvec3(params.anchor_dy) * (py - 0.5 * params.height);
-  const double anchor_distance =
-      std::hypot(static_cast<double>(params.anchor.w), glm::length(aside));
+  const glm::dvec4 x_axis(params.frame_x);
+  const glm::dvec4 y_axis(params.frame_y);
+  const glm::dvec4 z_axis(params.frame_z);
+  const dvec3 aside = dvec3(x_axis) * (x_axis.w * (px - 0.5 * params.width)) +
+                      dvec3(y_axis) * (y_axis.w * (py - 0.5 * params.height));
+  const auto axis = static_cast<double>(params.anchor.w);
+  const dvec3 from_eye = dvec3(z_axis) * axis + aside;
+  const double anchor_distance = glm::length(from_eye);
   OraclePixelRay pixel{{}, anchor_distance};
   pixel.ray.origin = dvec3(params.anchor) + aside;
-  pixel.ray.direction = to_near / near_distance;
-  pixel.ray.t_min = near_distance - anchor_distance;
+  pixel.ray.direction = from_eye / anchor_distance;
+  pixel.ray.t_min = z_axis.w * (anchor_distance / axis);
   return pixel;
 }
 

@@ -65,7 +65,8 @@ std::vector<CastHit> RayCaster::cast(std::span<const CastRay> rays,
       const auto groups = static_cast<uint32_t>(
           std::min<std::size_t>(budget.groups(), (count - done + CAST_SIZE - 1) / CAST_SIZE));
       const CastPush push{{}, static_cast<uint>(done), static_cast<uint>(count)};
-      budget.record(groups, queue_.run(commands_, *kernel_, bound_, push, groups, CAST_SIZE));
+      budget.record(groups,
+                    queue_.run(commands_, *kernel_, *kernel_, bound_, push, groups, CAST_SIZE));
       done += std::size_t{groups} * CAST_SIZE;
       if (progress) progress(first + std::min(done, count));
     }

@@ -11,7 +11,7 @@ RayQueue::RayQueue(const gpu::Device& device, uint32_t rays, uint32_t steps)
               "paused rays"),
       queued_(device, sizeof(uint32_t), gpu::Memory::host, "number of paused rays") {}
 
-double RayQueue::run_all(gpu::Commands& commands, const gpu::Kernel& kernel,
+double RayQueue::run_all(gpu::Commands& commands, const gpu::Kernel& first, const gpu::Kernel& rest,
                          const gpu::BoundBuffers& bound, uint32_t groups, uint32_t group_rays,
                          const std::function<void()>& between_submits,
                          const PushBytes& push_bytes) {
@@ -25,7 +25,7 @@ double RayQueue::run_all(gpu::Commands& commands, const gpu::Kernel& kernel,
     uint32_t queued = 0;
     std::memcpy(queued_.bytes().data(), &queued, sizeof(queued));
     commands.begin();
-    commands.dispatch(kernel, bound, push_bytes(queue), groups);
+    commands.dispatch(queue.pass == 0 ? first : rest, bound, push_bytes(queue), groups);
     gpu_ms += commands.submit_and_wait();
     std::memcpy(&queued, queued_.bytes().data(), sizeof(queued));
     return queued;

@@ -6,6 +6,7 @@
 #include <string>
 #include <system_error>
 
+#include "app/accel.h"
 #include "app/atomic_file.h"
 #include "app/commands.h"
 #include "app/error.h"
@@ -50,6 +51,8 @@ int render(const RenderOptions& options) {
   expect_distinct(options);
   const LoadedScene loaded = load_scene(options);
 
+  const Accel accel = chosen_accel(options, options.backend, loaded.scene.cages.size());
+
   AtomicFile image(options.output);
   std::optional<AtomicFile> stats;
   if (!options.stats.empty()) stats.emplace(options.stats);
@@ -57,8 +60,9 @@ int render(const RenderOptions& options) {
   const bool aovs = format == ImageFormat::exr || options.evals;
   const TraceResult traced = trace_scene(
       {options.backend, options.gl_path, options.device, options.validation, options.runs, true},
-      loaded.scene, loaded.params, {options.solver, aovs, options.evals});
+      loaded.scene, loaded.params, {options.solver, aovs, options.evals, accel});
   RenderStatistics statistics;
+  statistics.accel = accel;
   statistics.device = traced.device;
   statistics.driver = traced.driver;
   statistics.patches = loaded.scene.triangles.size();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/accel.h"
 #include "app/json_text.h"
 
 namespace trisect {
@@ -43,7 +44,7 @@ std::string to_json(const RenderOptions& options, const RenderStatistics& statis
   json["surface"] = surface_name(options.surface);
   json["shell"] = shell_name(options.shell);
   json["solver"] = solver_name(options.solver);
-  json["accel"] = "list";
+  json["accel"] = accel_name(statistics.accel);
   json["rank"] = options.rank;
   json["alpha"] = options.alpha;
   json["hits"] = statistics.hits;
@@ -75,11 +76,12 @@ std::string to_text(const RenderOptions& options, const RenderStatistics& statis
                         : "";
   return fmt::format(
       "device {}, driver {}\n"
-      "{} patches, surface {}{}, shell {}, solver {}, {}x{}: {} pixels hit\n{}"
+      "{} patches, surface {}{}, shell {}, solver {}, accel {}, {}x{}: {} pixels hit\n{}"
       "load {:.1f} ms, bake {:.1f} ms, upload {:.1f} ms, gpu {:.1f} ms, wall {:.1f} ms{}\n",
       statistics.device, statistics.driver, statistics.patches, surface_name(options.surface),
-      alpha, shell_name(options.shell), solver, options.width, options.height, statistics.hits,
-      counts, statistics.load_ms, statistics.bake_ms, statistics.upload_ms, gpu.median, wall.median,
+      alpha, shell_name(options.shell), solver, accel_name(statistics.accel), options.width,
+      options.height, statistics.hits, counts, statistics.load_ms, statistics.bake_ms,
+      statistics.upload_ms, gpu.median, wall.median,
       options.runs > 1 ? fmt::format(" (medians of {} runs, gpu {:.1f} to {:.1f} ms)", options.runs,
                                      gpu.min, gpu.max)
                        : "");

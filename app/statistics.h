@@ -31,6 +31,7 @@ struct WorkCounts {
 struct RenderStatistics {
   std::string device;
   std::string driver;
+  Accel accel = Accel::list;
   std::size_t patches = 0;
   std::size_t hits = 0;
   std::optional<WorkCounts> counts;  // if asked for

@@ -9,12 +9,38 @@
 #include "app/kernels.h"
 #include "app/stopwatch.h"
 #include "app/workgroups.h"
+#include "vk/result.h"
 
 namespace trisect {
 namespace {
 
 // Bytes moved between host and device at a time.
 constexpr std::size_t kStagingBytes = std::size_t{32} << 20U;
+
+std::vector<gpu::Specialization> constants_of(const BakedScene& scene, const KernelChoice& choice) {
+  return {
+      {CONSTANT_SURFACE, scene.choice.surface},   {CONSTANT_SHELL, scene.choice.shell},
+      {CONSTANT_SOLVER, choice.solver},           {CONSTANT_AOVS, choice.aovs ? 1U : 0U},
+      {CONSTANT_COUNTS, choice.counts ? 1U : 0U}, {CONSTANT_GROUPS, has_groups(scene) ? 1U : 0U}};
+}
+
+std::optional<TileLists> lists_for(const gpu::Device& device, const BakedScene& scene,
+                                   const KernelChoice& choice, uint32_t width, uint32_t band_rows) {
+  if (choice.accel != Accel::tiles) return std::nullopt;
+  if (!device.has_subgroup_operations()) {
+    throw gpu::Error(device.report().name +
+                     " lacks the subgroup operations of --accel tiles; use --accel list.");
+  }
+  return std::optional<TileLists>(std::in_place, device, constants_of(scene, choice),
+                                  static_cast<uint32_t>(scene.cages.size()), width, band_rows);
+}
+
+std::optional<gpu::Kernel> undecided_kernel(const gpu::Device& device, const BakedScene& scene,
+                                            const KernelChoice& choice) {
+  if (choice.accel != Accel::tiles) return std::nullopt;
+  return std::optional<gpu::Kernel>(std::in_place, device, kTraceUndecidedSpirv, frame_interface(),
+                                    constants_of(scene, choice), "trace_undecided");
+}
 
 }  // namespace
 
@@ -26,14 +52,10 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
       aovs_(choice.aovs),
       buffer_limit_(std::min<std::size_t>(buffer_limit, device.limits().maxStorageBufferRange)),
       band_rows_(rows_in_a_band(device.report().name, buffer_limit_, width, height, choice.aovs)),
-      kernel_(device, kTraceListSpirv, trace_list_interface(),
-              {{CONSTANT_SURFACE, scene.choice.surface},
-               {CONSTANT_SHELL, scene.choice.shell},
-               {CONSTANT_SOLVER, choice.solver},
-               {CONSTANT_AOVS, choice.aovs ? 1U : 0U},
-               {CONSTANT_COUNTS, choice.counts ? 1U : 0U},
-               {CONSTANT_GROUPS, has_groups(scene) ? 1U : 0U}},
-              "trace_list"),
+      tiles_(lists_for(device, scene, choice, width, band_rows_)),
+      kernel_(device, tiles_ ? kTraceTilesSpirv : kTraceListSpirv, frame_interface(),
+              constants_of(scene, choice), tiles_ ? "trace_tiles" : "trace_list"),
+      undecided_kernel_(undecided_kernel(device, scene, choice)),
       commands_(device),
       staging_(device, kStagingBytes),
       params_(device, sizeof(TraceParams), gpu::Memory::device, "trace parameters"),
@@ -49,9 +71,12 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
           choice.aovs ? std::size_t{width} * band_rows_ * sizeof(PixelAovs) : sizeof(PixelAovs),
           gpu::Memory::device, "AOVs"),
       queue_(device, groups_of_band(width, 0, band_rows_).most() * kGroupRays),
+      unused_(device, sizeof(vec4), gpu::Memory::device, "unused"),
       bound_(device, kernel_,
              {&params_, &triangles_, &colors_, &aovs_buffer_, &cages_, &queue_.paused(),
-              &queue_.queued()}) {
+              &queue_.queued(), tiles_ ? &tiles_->view_parts() : &unused_,
+              tiles_ ? &tiles_->counts() : &unused_, tiles_ ? &tiles_->parts() : &unused_,
+              tiles_ ? &tiles_->order() : &unused_, tiles_ ? &tiles_->seen() : &unused_}) {
   const Stopwatch watch;
   staging_.upload(commands_, std::as_bytes(std::span(scene.triangles)), triangles_);
   if (!scene.cages.empty()) {
@@ -72,6 +97,7 @@ FrameTime VulkanTracer::render(const TraceParams& params, Frame& frame,
   const Stopwatch watch;
   FrameTime time;
   staging_.upload(commands_, std::as_bytes(std::span(&params, 1)), params_);
+  if (tiles_) time.gpu_ms += tiles_->view(commands_, bound_);
   for (uint32_t row = 0; row < height_; row += band_rows_) {
     const uint32_t rows = std::min(band_rows_, height_ - row);
     time.gpu_ms += render_band(row, rows, between_submits);
@@ -89,12 +115,18 @@ FrameTime VulkanTracer::render(const TraceParams& params, Frame& frame,
 
 double VulkanTracer::render_band(uint32_t first_row, uint32_t rows,
                                  const std::function<void()>& between_submits) {
-  const GroupRange groups = groups_of_band(width_, first_row, rows);
+  GroupRange groups = groups_of_band(width_, first_row, rows);
   double gpu_ms = 0.0;
+  if (tiles_) {
+    groups.begin = 0;
+    gpu_ms = tiles_->bin(commands_, bound_, first_row, rows, groups.end);
+  }
+  const gpu::Kernel& rest = undecided_kernel_ ? *undecided_kernel_ : kernel_;
   for (uint32_t group = groups.begin; group < groups.end;) {
     const uint32_t count = std::min({budget_.groups(), groups.end - group, groups.most()});
-    const double ms = queue_.run(commands_, kernel_, bound_, TilePush{{}, group, first_row}, count,
-                                 kGroupRays, between_submits);
+    const double ms =
+        queue_.run(commands_, kernel_, rest, bound_, TilePush{{}, group, first_row, rows}, count,
+                   kGroupRays, between_submits);
     gpu_ms += ms;
     group += count;
     budget_.record(count, ms);

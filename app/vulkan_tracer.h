@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 
 #include "app/bake.h"
 #include "app/frame.h"
@@ -12,6 +13,7 @@
 #include "app/ray_queue.h"
 #include "app/shared.h"
 #include "app/submit_budget.h"
+#include "app/tile_lists.h"
 #include "vk/commands.h"
 
 namespace trisect {
@@ -42,7 +44,9 @@ class VulkanTracer {
   bool aovs_;
   std::size_t buffer_limit_;
   uint32_t band_rows_;
+  std::optional<TileLists> tiles_;
   gpu::Kernel kernel_;
+  std::optional<gpu::Kernel> undecided_kernel_;  // with tiles
   gpu::Commands commands_;
   gpu::Staging staging_;
   gpu::Buffer params_;
@@ -51,6 +55,7 @@ class VulkanTracer {
   gpu::Buffer colors_;
   gpu::Buffer aovs_buffer_;
   RayQueue queue_;
+  gpu::Buffer unused_;
   gpu::BoundBuffers bound_;
   double upload_ms_ = 0.0;
   SubmitBudget budget_;

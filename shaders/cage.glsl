@@ -93,16 +93,37 @@ Net cage_net(FramedPatch framed, vec3 corner, vec3 edge, Node node) {
   return net;
 }
 
-// The box of the control points holds the cage: whether it comes within `reach` of the ray.
-bool near_ray(Net net, real reach) {
-  vec2 low = min(min(min(min(net.b300, net.b030), min(net.b003, net.b210)),
-                     min(min(net.b120, net.b021), min(net.b012, net.b102))),
-                 min(net.b201, net.b111));
-  vec2 high = max(max(max(max(net.b300, net.b030), max(net.b003, net.b210)),
-                      max(max(net.b120, net.b021), max(net.b012, net.b102))),
-                  max(net.b201, net.b111));
-  return low.x <= reach && low.y <= reach && high.x >= -reach && high.y >= -reach;
+// Whether the control points, and with them the cage, stay farther than `reach` on one side of the ray, in the
+// direction across a.
+bool beside(Net net, vec2 a, real reach) {
+  real c0 = cross2(net.b300, a);
+  real c1 = cross2(net.b030, a);
+  real c2 = cross2(net.b003, a);
+  real c3 = cross2(net.b210, a);
+  real c4 = cross2(net.b120, a);
+  real c5 = cross2(net.b021, a);
+  real c6 = cross2(net.b012, a);
+  real c7 = cross2(net.b102, a);
+  real c8 = cross2(net.b201, a);
+  real c9 = cross2(net.b111, a);
+  real low = min(min(min(min(c0, c1), min(c2, c3)), min(min(c4, c5), min(c6, c7))), min(c8, c9));
+  real high = max(max(max(max(c0, c1), max(c2, c3)), max(max(c4, c5), max(c6, c7))), max(c8, c9));
+  // |a x b| of the b within reach of the ray, and rounding.
+  real most = reach * (abs(a.x) + abs(a.y)) + real(1e-6) * max(abs(low), abs(high));
+  return low > most || high < -most;
 }
+
+// Whether the cage comes within `reach` of the ray, as far as its extents along the triangle's edges, and across the
+// longest one, tell.
+bool near_ray(Net net, real reach) {
+  vec2 a = net.b030 - net.b300;
+  vec2 b = net.b003 - net.b300;
+  return !(beside(net, a, reach) || beside(net, b, reach) || beside(net, b - a, reach) ||
+           beside(net, vec2(-a.y - b.y, a.x + b.x), reach));
+}
+
+// J0^-1 a.
+vec2 weights_for(Mean mean, vec2 a) { return vec2(cross2(a, mean.v), cross2(mean.u, a)) / mean.area; }
 
 Tangents tangents(Net net) {
   Tangents t;
@@ -110,49 +131,22 @@ Tangents tangents(Net net) {
   t.u1 = net.b030 - net.b120;
   t.u2 = net.b012 - net.b102;
   t.u3 = net.b120 - net.b210;
-  t.u4 = net.b021 - net.b111;
-  t.u5 = net.b111 - net.b201;
+  t.u4 = net.b111 - net.b201;
+  t.u5 = net.b021 - net.b111;
   t.v0 = net.b201 - net.b300;
   t.v1 = net.b021 - net.b120;
   t.v2 = net.b003 - net.b102;
   t.v3 = net.b111 - net.b210;
-  t.v4 = net.b012 - net.b111;
-  t.v5 = net.b102 - net.b201;
+  t.v4 = net.b102 - net.b201;
+  t.v5 = net.b012 - net.b111;
   return t;
 }
 
-// Range of cross(a, t.v) over t's six control vectors; and of cross(t.u, a).
-Range across_v(vec2 a, Tangents t) {
-  real c0 = cross2(a, t.v0);
-  real c1 = cross2(a, t.v1);
-  real c2 = cross2(a, t.v2);
-  real c3 = cross2(a, t.v3);
-  real c4 = cross2(a, t.v4);
-  real c5 = cross2(a, t.v5);
-  Range range;
-  range.low = min(min(min(c0, c1), min(c2, c3)), min(c4, c5));
-  range.high = max(max(max(c0, c1), max(c2, c3)), max(c4, c5));
-  return range;
-}
-
-Range across_u(vec2 a, Tangents t) {
-  real c0 = cross2(t.u0, a);
-  real c1 = cross2(t.u1, a);
-  real c2 = cross2(t.u2, a);
-  real c3 = cross2(t.u3, a);
-  real c4 = cross2(t.u4, a);
-  real c5 = cross2(t.u5, a);
-  Range range;
-  range.low = min(min(min(c0, c1), min(c2, c3)), min(c4, c5));
-  range.high = max(max(max(c0, c1), max(c2, c3)), max(c4, c5));
-  return range;
-}
-
-Range hull_of(Range a, Range b) {
-  Range range;
-  range.low = min(a.low, b.low);
-  range.high = max(a.high, b.high);
-  return range;
+// By how much 1 - J0^-1 (u, v) lengthens a vector at most, lengths measured by the largest component.
+real apart(Mean mean, vec2 u, vec2 v) {
+  vec2 column_u = weights_for(mean, u);
+  vec2 column_v = weights_for(mean, v);
+  return max(abs(real(1.0) - column_u.x) + abs(column_v.x), abs(column_u.y) + abs(real(1.0) - column_v.y));
 }
 
 real longest_component(Tangents t) {
@@ -161,50 +155,30 @@ real longest_component(Tangents t) {
   return max(max(u.x, u.y), max(v.x, v.y));
 }
 
-// Bounds cross(S_u(p), S_v(q)) / 9 for all points p, q of a node, `stray` the most by which S_u / 3 and S_v / 3
-// differ from the cage's. If 0 is not among them no line along z meets the node twice: for two points of it,
-// S(q) - S(p) = (q_u - p_u) U + (q_v - p_v) V with U and V means of S_u and S_v, which lie in the hulls
-// of the control vectors, and U, V are independent.
-Range jacobian(Tangents t, real stray) {
-  Range range = hull_of(hull_of(hull_of(across_v(t.u0, t), across_v(t.u1, t)),
-                                hull_of(across_v(t.u2, t), across_v(t.u3, t))),
-                        hull_of(across_v(t.u4, t), across_v(t.u5, t)));
-  // |a x b| <= |a| |b|, the lengths at most sqrt(2) times their largest component; and rounding.
-  real longest = longest_component(t);
-  real slack = stray * (real(2.83) * longest + stray) + real(1e-6) * longest * longest;
-  range.low -= slack;
-  range.high += slack;
-  return range;
+// The mean of the control vectors, J0, and how far all J = (S_u, S_v) of the node are from it. At one point S_u and
+// S_v are the same convex combination of the u_i and the v_i, but for `stray`, the most by which S_u / 3 and S_v / 3
+// differ from the cage's. Where `spread` is less than 1 no line along z meets the node twice: from p to q S changes by
+// J (q - p), J the mean along the way, which is no farther from J0.
+Mean mean_tangents(Tangents t, real stray) {
+  const real sixth = real(1.0) / real(6.0);
+  EXACT Mean mean;
+  mean.u = (t.u0 + t.u1 + (t.u2 + t.u3) + (t.u4 + t.u5)) * sixth;
+  mean.v = (t.v0 + t.v1 + (t.v2 + t.v3) + (t.v4 + t.v5)) * sixth;
+  mean.area = cross2(mean.u, mean.v);
+  EXACT real spread = max(max(max(apart(mean, t.u0, t.v0), apart(mean, t.u1, t.v1)),
+                              max(apart(mean, t.u2, t.v2), apart(mean, t.u3, t.v3))),
+                          max(apart(mean, t.u4, t.v4), apart(mean, t.u5, t.v5)));
+  // |a x b| <= |a| |b|, the lengths at most sqrt(2) times their largest component; two columns; and rounding.
+  EXACT real longest = longest_component(t);
+  mean.spread = spread + (real(2.83) * stray * longest + real(1e-6) * longest * longest) / abs(mean.area);
+  return mean;
 }
 
-// How far a weight can grow at most on the way to the root: the numerator of Cramer's rule, at most `most`, over
-// a positive determinant between `smallest` and `biggest`.
-real growth(real most, real smallest, real biggest) {
-  return most / (real(3.0) * (most > real(0.0) ? smallest : biggest));
-}
-
-// Whether the root cannot be in the node, given a point of it with weights l within it and S = f there:
-// interval Newton, the weights of the root are l - M^-1 f, M = (U, V) as above. `margin`: weights.
-bool excludes(Tangents t, Range det, real stray, vec2 f, vec3 l, real margin) {
-  // Over all U and V; over det they are the change of weight 1, -cross(f, V), of weight 2, -cross(U, f), and of
-  // weight 0, cross(f, V - U), minus the two.
-  Range fv = across_v(f, t);
-  Range uf = across_u(f, t);
-  real w0 = cross2(f, t.v0 - t.u0);
-  real w1 = cross2(f, t.v1 - t.u1);
-  real w2 = cross2(f, t.v2 - t.u2);
-  real w3 = cross2(f, t.v3 - t.u3);
-  real w4 = cross2(f, t.v4 - t.u4);
-  real w5 = cross2(f, t.v5 - t.u5);
-  real slack = real(2.0) * stray * length2(f);
-  bool positive = det.low > real(0.0);
-  real smallest = positive ? det.low : -det.high;
-  real biggest = positive ? det.high : -det.low;
-  real most0 = positive ? max(max(max(w0, w1), max(w2, w3)), max(w4, w5))
-                        : -min(min(min(w0, w1), min(w2, w3)), min(w4, w5));
-  real most1 = positive ? -fv.low : fv.high;
-  real most2 = positive ? -uf.low : uf.high;
-  return l.x + growth(most0 + slack, smallest, biggest) < -margin ||
-         l.y + growth(most1 + slack, smallest, biggest) < -margin ||
-         l.z + growth(most2 + slack, smallest, biggest) < -margin;
+// Whether the root cannot be in the node, given a point of it with weights l within it and S = f there: it lies at
+// l - J^-1 f, which differs from l - J0^-1 f by spread / (1 - spread) of that step at most. `margin`: weights.
+bool excludes(Mean mean, vec2 f, vec3 l, real margin) {
+  vec2 step = weights_for(mean, f) * (real(1.0) / real(3.0));
+  real off = mean.spread / (real(1.0) - mean.spread) * largest(step);
+  return l.y - step.x + off < -margin || l.z - step.y + off < -margin ||
+         l.x + step.x + step.y + real(2.0) * off < -margin;
 }

@@ -23,6 +23,7 @@ layout(std430, binding = BINDING_RAYS) readonly restrict buffer RaysBlock { Cast
 layout(std430, binding = BINDING_HITS) writeonly restrict buffer HitsBlock { CastHit hits[]; };
 layout(push_constant) uniform PushBlock { CastPush push; };
 
+#include "every_part.glsl"
 #include "trace.glsl"
 #include "queue.glsl"
 
@@ -40,7 +41,7 @@ void main() {
   }
   PixelRay ray = ray_cast(rays[index]);
   go_on(ray, push.queue.pass, walk);
-  if (is_through(walk)) {
+  if (is_through(ray, walk)) {
     hits[index] = hit_cast(ray, walk);
   } else {
     pause(push.queue.to + atomicAdd(queued, 1u), index, walk);

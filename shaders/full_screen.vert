@@ -9,14 +9,14 @@ layout(std140, binding = BINDING_PARAMS) uniform ParamsBlock { TraceParams param
 uniform dmat4 view_projection;  // of points relative to the eye
 
 out vec3 to_near;
-out vec3 aside;
+out vec2 across;
 
 void main() {
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
   dvec4 near = inverse(view_projection) * dvec4(corner, -1.0, 1.0);
   to_near = vec3(near.xyz / near.w);
   // Image rows count from above.
-  aside = params.anchor_dx.xyz * (0.5 * corner.x * float(params.width)) -
-          params.anchor_dy.xyz * (0.5 * corner.y * float(params.height));
+  across = 0.5 * vec2(corner.x * float(params.width) * params.frame_x.w,
+                      -corner.y * float(params.height) * params.frame_y.w);
   gl_Position = vec4(corner, 0.0, 1.0);
 }

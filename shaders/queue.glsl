@@ -10,6 +10,7 @@ Walk resumed_walk(uint place, int steps) {
   walk.hit.z = ray.hit.w;
   walk.hit.weights = vec3(ray.hit);
   walk.hit.triangle = ray.triangle;
+  walk.hit.part = ray.part;
   walk.counts.evaluations = ray.evaluations;
   walk.counts.candidates = ray.candidates;
   walk.item = ray.item;
@@ -21,6 +22,7 @@ Walk resumed_walk(uint place, int steps) {
 void pause(uint place, uint ray, Walk walk) {
   paused[place].hit = vec4(walk.hit.weights, walk.hit.z);
   paused[place].triangle = walk.hit.triangle;
+  paused[place].part = walk.hit.part;
   paused[place].ray = ray;
   paused[place].item = walk.item;
   paused[place].path = walk.path;

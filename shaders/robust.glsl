@@ -2,7 +2,7 @@
 //
 // The patch is seen in the ray's frame, where a root is a zero of S.xy over the triangle. Nodes, sub-triangles
 // of dyadic size, are taken from a quadtree: one whose cage stays clear of the ray is done; one in which the cage
-// allows one root at most (jacobian) is solved by Newton's method, held within the node; where that ends on the
+// allows one root at most (mean_tangents) is solved by Newton's method, held within the node; where that ends on the
 // node's border without a root, an interval Newton test must prove that there is none. What is not proven is
 // divided. Silhouettes, where a ray grazes a node, are divided nine times; Newton then starts from every corner.
 //
@@ -17,10 +17,11 @@ const uint FOUND_NONE = 1u;
 const uint FOUND_NOTHING = 2u;  // neither a root nor that there is none
 
 const int MOST_STEPS = 10;
+const int ONCE_STEPS = 6;
+// In weights of the part: a step of this size leaves an error of its square.
+const real ONCE_MOVED = real(1e-4);
 // What the loops of one node take of Walk::steps, beside the evaluations.
 const int VISIT_STEPS = 8;
-// A node is searched with so much around it, in its own weights: no root is lost on the border of two nodes.
-const real OVERLAP = real(0.03125);
 
 // Orthonormal axes with z = view: Duff et al. 2017, "Building an orthonormal basis, revisited".
 RayFrame ray_frame(vec3 anchor, vec3 view) {
@@ -32,6 +33,9 @@ RayFrame ray_frame(vec3 anchor, vec3 view) {
   frame.x = vec3(real(1.0) + turn * view.x * view.x * a, turn * b, -turn * view.x);
   frame.y = vec3(b, turn + view.y * view.y * a, -view.y);
   frame.z = view;
+  frame.offset = vec2(0.0);
+  frame.slope = vec2(0.0);
+  frame.stretch = real(1.0);
   return frame;
 }
 
@@ -39,27 +43,50 @@ vec3 turned(RayFrame frame, vec3 a) {
   return vec3(dot3(frame.x, a), dot3(frame.y, a), dot3(frame.z, a));
 }
 
-FramedPatch framed_patch(RayFrame frame, uint shell, Triangle tri) {
+// The patch in the frame's axes.
+FramedPatch turned_patch(RayFrame frame, uint shell, Triangle tri) {
+  FramedPatch at;
+  at.P0 = turned(frame, vec3(tri.Position[0]) - frame.anchor);
+  at.P1 = turned(frame, vec3(tri.Position[1]) - frame.anchor);
+  at.P2 = turned(frame, vec3(tri.Position[2]) - frame.anchor);
+  at.D0 = turned(frame, corner_direction(shell, tri.Normal[0], tri.NormDot.x));
+  at.D1 = turned(frame, corner_direction(shell, tri.Normal[1], tri.NormDot.y));
+  at.D2 = turned(frame, corner_direction(shell, tri.Normal[2], tri.NormDot.z));
+  return at;
+}
+
+// A point, and a direction, of the axes in the ray's frame.
+vec3 sheared_point(RayFrame frame, vec3 p) { return vec3(vec2(p) - (frame.offset + frame.slope * p.z), p.z); }
+
+vec3 sheared_direction(RayFrame frame, vec3 d) { return vec3(vec2(d) - frame.slope * d.z, d.z); }
+
+FramedPatch sheared_patch(RayFrame frame, FramedPatch at) {
   FramedPatch framed;
-  framed.P0 = turned(frame, vec3(tri.Position[0]) - frame.anchor);
-  framed.P1 = turned(frame, vec3(tri.Position[1]) - frame.anchor);
-  framed.P2 = turned(frame, vec3(tri.Position[2]) - frame.anchor);
-  framed.D0 = turned(frame, corner_direction(shell, tri.Normal[0], tri.NormDot.x));
-  framed.D1 = turned(frame, corner_direction(shell, tri.Normal[1], tri.NormDot.y));
-  framed.D2 = turned(frame, corner_direction(shell, tri.Normal[2], tri.NormDot.z));
+  framed.P0 = sheared_point(frame, at.P0);
+  framed.P1 = sheared_point(frame, at.P1);
+  framed.P2 = sheared_point(frame, at.P2);
+  framed.D0 = sheared_direction(frame, at.D0);
+  framed.D1 = sheared_direction(frame, at.D1);
+  framed.D2 = sheared_direction(frame, at.D2);
   return framed;
 }
 
 // What a coordinate across the ray may be off by: some roundings of the anchor and of the patch's position. A ray
 // that passes a patch's border by less than this meets it, so that none falls between two patches.
 real grain(RayFrame frame, Triangle tri) {
-  return real(2.4e-7) * max(length3(frame.anchor), length3(vec3(tri.Position[0])));
+  return real(2.4e-7) * frame.stretch * max(length3(frame.anchor), length3(vec3(tri.Position[0])));
 }
 
-Contact contact(Shape shape, Triangle tri, FramedPatch framed, vec3 w) {
-  Displacement sigma = displacement_and_derivatives(shape, tri, w);
+// The quadratic of a cubic patch is sigma itself.
+Displacement displacement_in(Shape shape, Triangle tri, Cage cage, vec3 w) {
+  if (shape.surface == SURFACE_PHONG && shape.shell == SHELL_NORMAL) return bulged(vec3(cage.edge) * real(2.0), w);
+  return displacement_and_derivatives(shape, tri, w);
+}
+
+Contact contact(Shape shape, Triangle tri, Cage cage, FramedPatch framed, vec3 w) {
+  Displacement sigma = displacement_in(shape, tri, cage, w);
   vec3 D = weigh(w, framed.D0, framed.D1, framed.D2);
-  Contact at;
+  EXACT Contact at;
   at.S = weigh(w, framed.P0, framed.P1, framed.P2) + D * sigma.s;
   at.u = (framed.P1 - framed.P0) + D * sigma.u + (framed.D1 - framed.D0) * sigma.s;
   at.v = (framed.P2 - framed.P0) + D * sigma.v + (framed.D2 - framed.D0) * sigma.s;
@@ -116,12 +143,12 @@ vec3 closest_on_border(vec3 from, vec3 target, vec2 f, vec2 u, vec2 v) {
 
 // Newton's method from the weights l within a node. If the node is `certified` to hold one root at most,
 // FOUND_NONE is a proof. On a root: its place along the ray, and its weights.
-uint newton(Shape shape, Triangle tri, FramedPatch framed, Node node, Tangents t, Range det, real stray,
-            bool certified, real reach, vec3 l, OUT(real) z, OUT(vec3) weights, INOUT(uint) evaluations) {
+uint newton(Shape shape, Triangle tri, Cage cage, FramedPatch framed, Node node, Mean mean, bool certified, real reach,
+            vec3 l, OUT(real) z, OUT(vec3) weights, INOUT(uint) evaluations) {
   z = real(0.0);
   weights = weights_of(node, l);
   for (int i = 0; i < MOST_STEPS; ++i) {
-    Contact at = contact(shape, tri, framed, weights);
+    Contact at = contact(shape, tri, cage, framed, weights);
     ++evaluations;
     vec2 f = vec2(at.S);
     vec2 u = vec2(at.u);
@@ -139,7 +166,7 @@ uint newton(Shape shape, Triangle tri, FramedPatch framed, Node node, Tangents t
     bool exact = largest(f) <= real(0.5) * reach;
     bool held = least(inside) < real(0.0) && !exact;
     if (held) {
-      if (certified && excludes(t, det, stray, f, weights_in(node, from), real(1e-5))) return FOUND_NONE;
+      if (certified && excludes(mean, f, weights_in(node, from), real(1e-5))) return FOUND_NONE;
       target = weights_of(node, held_inside(inside));
     }
     weights = target;
@@ -165,16 +192,72 @@ uint newton(Shape shape, Triangle tri, FramedPatch framed, Node node, Tangents t
   return FOUND_NOTHING;
 }
 
-void keep_nearest(real z, vec3 weights, uint triangle, real nearest, INOUT(Hit) hit) {
-  if (z >= nearest && z < hit.z) {
+// The root in a part through whose cone the ray goes steeply: it meets the enlarged part once at most, so that a root
+// found beside the part proves that there is none in it. Newton's method with nothing to hold it; what it leaves
+// undecided, roots on the patch's border among it, is for the search below.
+uint meet_once(Shape shape, Triangle tri, Cage cage, FramedPatch framed, vec3 view, real reach, OUT(real) z,
+               OUT(vec3) weights, INOUT(uint) evaluations) {
+  vec3 Pu = framed.P1 - framed.P0;
+  vec3 Pv = framed.P2 - framed.P0;
+  vec3 Du = framed.D1 - framed.D0;
+  vec3 Dv = framed.D2 - framed.D0;
+  real size = abs(cage.node.w);
+  bool steep = abs(dot3(vec3(cage.cone), view)) > cage.cone.w;
+  vec3 next = vec3(cage.node) + vec3(cage.node.w / real(3.0));
+  // Of the last step: where from, sigma there, how far, and what the surface spans there, seen along the ray.
+  vec3 from = next;
+  vec3 sigma = vec3(0.0);
+  vec2 step = vec2(0.0);
+  real slope = real(0.0);
+  real longest = real(0.0);
+  bool found = !steep;
+  int left = ONCE_STEPS;
+  // The condition stands at the end because llvmpipe runs the body once more, masked, if it stands at the head. Mesa
+  // 22.3 then loses what a ray had when it left the loop before others, hence the choices by `found`.
+  do {
+    Displacement here = displacement_in(shape, tri, cage, next);
+    EXACT vec3 D = framed.D0 + Du * next.y + Dv * next.z;
+    EXACT vec2 f = vec2(framed.P0) + vec2(Pu) * next.y + vec2(Pv) * next.z + vec2(D) * here.s;
+    EXACT vec2 u = vec2(Pu) + vec2(D) * here.u + vec2(Du) * here.s;
+    EXACT vec2 v = vec2(Pv) + vec2(D) * here.v + vec2(Dv) * here.s;
+    real area = cross2(u, v);
+    vec2 moved = vec2(-cross2(f, v) / area, cross2(f, u) / area);
+    if (!found) ++evaluations;
+    from = found ? from : next;
+    sigma = found ? sigma : vec3(here.s, here.u, here.v);
+    step = found ? step : moved;
+    slope = found ? slope : area;
+    longest = found ? longest : real(1.5) * (largest(u) + largest(v));
+    found = found || largest(moved) <= ONCE_MOVED * size;
+    next = from + vec3(-step.x - step.y, step.x, step.y);
+    --left;
+  } while (left > 0 && !found);
+  weights = from + vec3(-step.x - step.y, step.x, step.y);
+  EXACT vec3 D = framed.D0 + Du * from.y + Dv * from.z;
+  EXACT real lifted =
+      D.z * (sigma.x + sigma.y * step.x + sigma.z * step.y) + (Du.z * step.x + Dv.z * step.y) * sigma.x;
+  EXACT real depth = framed.P0.z + Pu.z * weights.y + Pv.z * weights.z + lifted;
+  z = depth;
+  real outside = -least(weights);
+  real beside = -least((weights - vec3(cage.node)) / cage.node.w);
+  if (!steep || !(largest(step) <= ONCE_MOVED * size) || !(beside <= CONE_MARGIN)) return FOUND_NOTHING;
+  if (outside <= real(0.0)) return beside <= OVERLAP ? FOUND_ROOT : FOUND_NONE;
+  // So far from the line of an edge, over the longest of which 1.5 (|u| + |v|) is: twice the reach, for the surface's
+  // bend between here and there.
+  return outside * abs(slope) > real(2.0) * reach * longest ? FOUND_NONE : FOUND_NOTHING;
+}
+
+void keep_nearest(real z, vec3 weights, uint triangle, uint part, real nearest, INOUT(Hit) hit) {
+  if (z >= nearest && (z < hit.z || (z == hit.z && part < hit.part))) {
     hit.z = z;
     hit.weights = weights;
     hit.triangle = triangle;
+    hit.part = part;
   }
 }
 
 // A patch without displacement: its plane is met once, no node is looked at.
-void meet_flat(FramedPatch framed, uint triangle, real reach, real nearest, INOUT(Hit) hit) {
+void meet_flat(FramedPatch framed, uint triangle, uint part, real reach, real nearest, INOUT(Hit) hit) {
   vec2 P = vec2(framed.P0);
   vec2 u = vec2(framed.P1) - P;
   vec2 v = vec2(framed.P2) - P;
@@ -189,7 +272,7 @@ void meet_flat(FramedPatch framed, uint triangle, real reach, real nearest, INOU
   vec2 missed = P + u * held.y + v * held.z;
   if (inside || largest(missed) <= reach) {
     real z = framed.P0.z + (framed.P1.z - framed.P0.z) * held.y + (framed.P2.z - framed.P0.z) * held.z;
-    keep_nearest(z, held, triangle, nearest, hit);
+    keep_nearest(z, held, triangle, part, nearest, hit);
   }
 }
 
@@ -224,11 +307,19 @@ Fit cage_fit(Shape shape, Triangle tri, Cage cage, Node node, bool whole, INOUT(
 
 // Roots of a ray in one part of a patch, from the node walk.path on; the nearest beyond `nearest` that is before
 // walk.hit becomes it. walk.path is WHOLE again at the end, or else where the steps ended.
-void meet_part(Shape shape, Triangle tri, Cage cage, RayFrame frame, real nearest, INOUT(Walk) walk) {
-  FramedPatch framed = framed_patch(frame, shape.shell, tri);
+void meet_part(Shape shape, Triangle tri, Cage cage, uint part, RayFrame frame, vec3 view, real nearest,
+               INOUT(Walk) walk) {
+  FramedPatch framed = sheared_patch(frame, turned_patch(frame, shape.shell, tri));
   real reach = grain(frame, tri);
+  if (walk.path == WHOLE) {
+    real z;
+    vec3 weights;
+    uint found = meet_once(shape, tri, cage, framed, view, reach, z, weights, walk.counts.evaluations);
+    if (found == FOUND_ROOT) keep_nearest(z, weights, cage.triangle, part, nearest, walk.hit);
+    if (found != FOUND_NOTHING) return;
+  }
   if (cage.flat_part == 1u) {
-    meet_flat(framed, cage.triangle, reach, nearest, walk.hit);
+    meet_flat(framed, cage.triangle, part, reach, nearest, walk.hit);
     return;
   }
   Node node = node_at(cage.node, walk.path);
@@ -239,20 +330,20 @@ void meet_part(Shape shape, Triangle tri, Cage cage, RayFrame frame, real neares
     Node wide = widened(node);
     Net net = cage_net(framed, fit.corner, fit.edge, wide);
     bool divide = false;
-    if (near_ray(net, fit.stray + reach)) {
+    if (near_ray(net, frame.stretch * fit.stray + reach)) {
       Tangents t = tangents(net);
-      real stray = fit.tangent_stray * abs(wide.size) / real(3.0);
-      Range det = jacobian(t, stray);
-      bool certified = det.low > real(0.0) || det.high < real(0.0);
+      real stray = frame.stretch * fit.tangent_stray * abs(wide.size) / real(3.0);
+      Mean mean = mean_tangents(t, stray);
+      bool certified = mean.spread < real(1.0);
       divide = !certified && !last;
       int starts = divide ? 0 : certified ? 1 : 3;
       vec3 start = certified ? flat_guess(net) : vec3(1.0, 0.0, 0.0);
       for (int k = 0; k < starts; ++k) {
         real z;
         vec3 weights;
-        uint found = newton(shape, tri, framed, wide, t, det, stray, certified, reach, start, z, weights,
+        uint found = newton(shape, tri, cage, framed, wide, mean, certified, reach, start, z, weights,
                             walk.counts.evaluations);
-        if (found == FOUND_ROOT) keep_nearest(z, weights, cage.triangle, nearest, walk.hit);
+        if (found == FOUND_ROOT) keep_nearest(z, weights, cage.triangle, part, nearest, walk.hit);
         divide = certified && found == FOUND_NOTHING && !last;
         start = vec3(start.z, start.x, start.y);
       }

@@ -16,7 +16,7 @@ struct Triangle {
                        // neighbour; z: interior angle in radians
 };
 
-// A part of a displaced triangle, 80 bytes: what the robust solver knows of it before it looks.
+// A part of a displaced triangle, 96 bytes: what the robust solver knows of it before it looks.
 // With triangle weights w the part is w = node.xyz + node.w l, l the weights within the part; its
 // sigma is about the quadratic q with the Bernstein coefficients corner and edge.
 struct Cage {
@@ -26,11 +26,35 @@ struct Cage {
   vec4 corner;  // xyz: q(e_0, e_0), q(e_1, e_1), q(e_2, e_2); w: how far S strays from T + q D,
                 // length
   vec4 edge;    // xyz: q(e_0, e_1), q(e_1, e_2), q(e_0, e_2); w: the same of S_u and S_v
+  // xyz, w: axis and sine of a cone that contains S_u(a) x S_v(b) for all points a, b of the
+  // enlarged part. No line that makes a larger angle with its complement meets that twice. NO_CONE:
+  // there is none.
+  vec4 cone;
   uint triangle;
   uint flat_part;  // 1: sigma is 0
   float bend;  // Lipschitz constant of the gradient of sigma - q in the weights 1 and 2, times |D|
   uint skip;   // a group: how many cages follow that lie within its ball, and it has no part of its
                // own
+};
+
+// A part as a frame's camera sees it, 192 bytes, written anew for every frame. Image positions are
+// in pixels, y down, (0, 0) the top left corner.
+struct ViewPart {
+  // The part is seen within the box, and on the inner side of three lines: an image position p is
+  // outside if lines_x[i] p.x + lines_y[i] p.y > lines_at[i].
+  vec4 box;       // least x, least y, largest x, largest y
+  vec4 lines_x;   // xyz; w: the depth in the camera's frame at which it begins
+  vec4 lines_y;   // xyz; w: index of the triangle, less than 2^24
+  vec4 lines_at;  // xyz
+  // The patch in the axes of the camera's frame.
+  vec4 P0;  // xyz: vertex; w: Cage::edge.x
+  vec4 P1;
+  vec4 P2;
+  vec4 D0;  // xyz: direction; w: Cage::node.x
+  vec4 D1;
+  vec4 D2;
+  vec4 cone;   // Cage::cone
+  vec4 sizes;  // x: Cage::node.w; y: the grain of a ray down the axis
 };
 
 // One frame's constants. Rays leave the eye; near(x, y) = eye + ray_corner + x ray_dx + y ray_dy is
@@ -41,15 +65,16 @@ struct TraceParams {
   vec4 ray_corner;  // xyz
   vec4 ray_dx;      // xyz
   vec4 ray_dy;      // xyz
-  // The same rays where they pass the plane through the scene's centre (or the near plane, if that
-  // is farther): relative to the scene's origin and to the plane's point in the image's middle, so
-  // that an eye far away costs no digits.
-  vec4 anchor;     // xyz: that point; w: its distance from the eye
-  vec4 anchor_dx;  // xyz
-  vec4 anchor_dy;  // xyz
-  vec4 light;      // xyz: unit vector toward the light
-  vec4 grid;       // xyz: origin of the shading grid; w: 1 / its cell size
-  uint width;      // image size in pixels
+  // The same rays in the camera's frame, whose third axis is the camera's and whose origin, the
+  // anchor, lies on it near the scene's centre, so that an eye far away costs no digits: at depth z
+  // in it, x and y are those of the ray at depth 0 times 1 + z / anchor.w.
+  vec4 anchor;   // xyz: the anchor, from the scene's origin; w: its distance from the eye
+  vec4 frame_x;  // xyz: unit vector to the right; w: a pixel's width at depth 0
+  vec4 frame_y;  // xyz: unit vector down; w: a pixel's height at depth 0
+  vec4 frame_z;  // xyz: unit vector ahead; w: depth of the near plane
+  vec4 light;    // xyz: unit vector toward the light
+  vec4 grid;     // xyz: origin of the shading grid; w: 1 / its cell size
+  uint width;    // image size in pixels
   uint height;
   uint triangle_count;
   uint rank;         // bisection: rank - 1 halvings
@@ -65,13 +90,13 @@ struct TraceParams {
 struct PausedRay {
   vec4 hit;  // the nearest root so far: xyz: weights; w: its place along the ray
   uint triangle;
+  uint part;  // of the hit
   uint ray;   // pixel of the image in raster order, or index of a cast ray
   uint item;  // of the list, with which it goes on
   uint path;  // in a part, the node with which it goes on
   uint evaluations;
   uint candidates;
-  uint padding0;
-  uint padding1;
+  uint padding;
 };
 
 // What a submit goes on with.
@@ -84,11 +109,12 @@ struct QueuePush {
 };
 
 // What one submit of new rays covers: workgroups first_group, first_group + 1, ... in raster order,
-// of an image whose row first_row is the first one that the output buffers hold.
+// of an image of which the output buffers hold `rows` rows from first_row on.
 struct TilePush {
   QueuePush queue;
   uint first_group;
   uint first_row;
+  uint rows;
 };
 
 // Per-pixel outputs beside the colour.
@@ -129,6 +155,14 @@ struct CastPush {
 
 const uint NO_TRIANGLE = 4294967295u;
 
+// A sine that no angle has.
+const float NO_CONE = 2.0;
+// A node is searched with so much of its size around it: no root is lost on the border of two
+// nodes.
+const float OVERLAP = 0.03125;
+// A part is enlarged by so much for its cone.
+const float CONE_MARGIN = 0.125;
+
 // Surfaces: how far a point of the base triangle is displaced.
 const uint SURFACE_FLAT = 0u;
 const uint SURFACE_PHONG = 1u;
@@ -144,6 +178,11 @@ const uint SOLVER_ROBUST = 1u;
 
 // Workgroups are TILE_SIZE x TILE_SIZE pixels.
 #define TILE_SIZE 8
+// A tile's list holds so many parts. The rays of one that more parts touch go through all of them.
+#define TILE_PARTS 64
+// Invocations of a workgroup that each see to one part; rows of tiles that one of them looks at.
+#define PARTS_SIZE 64
+#define BIN_ROWS 16
 // Rays that a workgroup casts.
 #define CAST_SIZE 64
 
@@ -158,6 +197,11 @@ const uint SOLVER_ROBUST = 1u;
 #define BINDING_QUEUE 7
 #define BINDING_QUEUED 8
 #define BINDING_PUSH 9  // OpenGL only
+#define BINDING_VIEW_PARTS 10
+#define BINDING_TILE_COUNTS 11
+#define BINDING_TILE_PARTS 12
+#define BINDING_TILE_ORDER 13
+#define BINDING_TILES_SEEN 14
 
 // Specialisation constants.
 #define CONSTANT_SURFACE 0

@@ -1,11 +1,15 @@
 // The types of the robust solver.
 
-// A frame with the ray as its third axis: the ray is the line x = y = 0, its anchor the origin.
+// A frame in which a ray is the line x = y = 0: orthonormal axes about an anchor, sheared by the ray, which in them
+// is at (offset + slope z, z). A ray's own frame has it as third axis; all rays of an image share the camera's.
 struct RayFrame {
   vec3 anchor;
   vec3 x;
   vec3 y;
   vec3 z;
+  vec2 offset;
+  vec2 slope;
+  real stretch;  // sqrt(1 + slope^2): length along the ray for a change of z, and the most that x, y grow by
 };
 
 // A patch in a ray's frame.
@@ -46,7 +50,8 @@ struct Net {
   vec2 b111;
 };
 
-// Control vectors of a net's derivatives, over 3: S_u and S_v of the cage lie in their hulls.
+// Control vectors of a net's derivatives, over 3, u_i and v_i those of the same Bernstein polynomial: S_u and S_v of
+// the cage are the same convex combination of them.
 struct Tangents {
   vec2 u0;
   vec2 u1;
@@ -62,9 +67,12 @@ struct Tangents {
   vec2 v5;
 };
 
-struct Range {
-  real low;
-  real high;
+// The mean J0 = (u, v) of a node's tangents, over 3, and how far others are from it.
+struct Mean {
+  vec2 u;
+  vec2 v;
+  real area;    // u x v
+  real spread;  // the most by which 1 - J0^-1 J lengthens a vector
 };
 
 // The surface at one point, in a ray's frame.
@@ -79,6 +87,7 @@ struct Hit {
   real z;
   vec3 weights;
   uint triangle;
+  uint part;  // the triangle's part; of two roots at the same place the one in the first part counts
 };
 
 // The work done for a ray.

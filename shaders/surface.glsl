@@ -153,6 +153,15 @@ real sphere_derivative(vec3 T, vec3 dT, vec3 D, vec3 dD, real s, vec3 vertex, ve
   return -((dA * s + real(2.0) * dB) * s + dC) / (real(2.0) * (A * s + B));
 }
 
+// That of phong in the normal shell, from its (s_01, s_12, s_02).
+Displacement bulged(vec3 bulge, vec3 w) {
+  EXACT Displacement sigma;
+  sigma.s = bulge.x * w.x * w.y + bulge.y * w.y * w.z + bulge.z * w.x * w.z;
+  sigma.u = bulge.x * (w.x - w.y) + (bulge.y - bulge.z) * w.z;
+  sigma.v = bulge.z * (w.x - w.z) + (bulge.y - bulge.x) * w.y;
+  return sigma;
+}
+
 Displacement displacement_and_derivatives(Shape shape, Triangle tri, vec3 w) {
   Displacement sigma;
   sigma.s = real(0.0);
@@ -160,11 +169,7 @@ Displacement displacement_and_derivatives(Shape shape, Triangle tri, vec3 w) {
   sigma.v = real(0.0);
   if (shape.surface == SURFACE_FLAT) return sigma;
   if (shape.surface == SURFACE_PHONG && shape.shell == SHELL_NORMAL) {
-    vec3 bulge = edge_bulges(tri, shape.alpha);
-    sigma.s = bulge.x * w.x * w.y + bulge.y * w.y * w.z + bulge.z * w.x * w.z;
-    sigma.u = bulge.x * (w.x - w.y) + (bulge.y - bulge.z) * w.z;
-    sigma.v = bulge.z * (w.x - w.z) + (bulge.y - bulge.x) * w.y;
-    return sigma;
+    return bulged(edge_bulges(tri, shape.alpha), w);
   }
   vec3 P0 = vec3(tri.Position[0]);
   vec3 P1 = vec3(tri.Position[1]);

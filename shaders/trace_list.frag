@@ -8,12 +8,13 @@
 #include "frame_buffers.glsl"
 
 in vec3 to_near;
-in vec3 aside;
+in vec2 across;
 layout(location = 0) out vec4 out_color;
 layout(location = 1) out vec4 out_normal_z;
 layout(location = 2) out vec4 out_geometric_u;
 layout(location = 3) out uvec4 out_rest;  // v's bits, triangle, evaluations, candidates
 
+#include "every_part.glsl"
 #include "trace.glsl"
 #include "queue.glsl"
 
@@ -29,9 +30,9 @@ void main() {
     if (paused[index].path == NOWHERE) discard;
     walk = resumed_walk(index, walk.steps);
   }
-  precise PixelRay ray = ray_through(to_near, aside);
+  precise PixelRay ray = ray_through(to_near, across);
   go_on(ray, push.queue.pass, walk);
-  if (!is_through(walk)) {
+  if (!is_through(ray, walk)) {
     pause(index, index, walk);
     atomicAdd(queued, 1u);
     discard;

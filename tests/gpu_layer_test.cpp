@@ -99,11 +99,11 @@ TEST_F(GpuLayer, OrdersWhatOneSubmitDoes) {
 
 TEST_F(GpuLayer, ChecksWhatADispatchIsGiven) {
   const Device& device = test::validated_device();
-  const Kernel kernel(device, kTraceListSpirv, trace_list_interface(), {}, "trace_list");
+  const Kernel kernel(device, kTraceListSpirv, frame_interface(), {}, "trace_list");
   const Buffer buffer(device, 1024, Memory::device, "scratch");
   EXPECT_THROW(BoundBuffers(device, kernel, {&buffer}), std::logic_error);
-  const BoundBuffers bound(
-      device, kernel, std::vector<const Buffer*>(trace_list_interface().bindings.size(), &buffer));
+  const BoundBuffers bound(device, kernel,
+                           std::vector<const Buffer*>(frame_interface().bindings.size(), &buffer));
   Commands commands(device);
   commands.begin();
   EXPECT_THROW(commands.dispatch(kernel, bound, {}, 1), std::logic_error);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <map>
+#include <span>
 #include <spirv_cross/spirv_cross.hpp>
 #include <string>
 
@@ -15,8 +16,8 @@ namespace {
 using spirv_cross::Compiler;
 using Offsets = std::map<std::string, std::size_t>;
 
-Compiler reflect() {
-  return Compiler(std::vector<uint32_t>(kTraceListSpirv.begin(), kTraceListSpirv.end()));
+Compiler reflect(std::span<const uint32_t> spirv = kTraceListSpirv) {
+  return Compiler(std::vector<uint32_t>(spirv.begin(), spirv.end()));
 }
 
 Offsets offsets_of(const Compiler& compiler, const spirv_cross::SPIRType& type) {
@@ -77,9 +78,30 @@ TEST(Layout, Cage) {
                                    {"corner", offsetof(Cage, corner)},
                                    {"edge", offsetof(Cage, edge)},
                                    {"triangle", offsetof(Cage, triangle)},
+                                   {"cone", offsetof(Cage, cone)},
                                    {"flat_part", offsetof(Cage, flat_part)},
                                    {"bend", offsetof(Cage, bend)},
                                    {"skip", offsetof(Cage, skip)}}));
+}
+
+TEST(Layout, ViewPart) {
+  const Compiler compiler = reflect(kViewPartsSpirv);
+  const auto resources = compiler.get_shader_resources();
+  const Held held =
+      held_by(compiler, with_binding(compiler, resources.storage_buffers, BINDING_VIEW_PARTS));
+  EXPECT_EQ(held.stride, sizeof(ViewPart));
+  EXPECT_EQ(held.offsets, (Offsets{{"box", offsetof(ViewPart, box)},
+                                   {"lines_x", offsetof(ViewPart, lines_x)},
+                                   {"lines_y", offsetof(ViewPart, lines_y)},
+                                   {"lines_at", offsetof(ViewPart, lines_at)},
+                                   {"P0", offsetof(ViewPart, P0)},
+                                   {"P1", offsetof(ViewPart, P1)},
+                                   {"P2", offsetof(ViewPart, P2)},
+                                   {"D0", offsetof(ViewPart, D0)},
+                                   {"D1", offsetof(ViewPart, D1)},
+                                   {"D2", offsetof(ViewPart, D2)},
+                                   {"cone", offsetof(ViewPart, cone)},
+                                   {"sizes", offsetof(ViewPart, sizes)}}));
 }
 
 TEST(Layout, TraceParams) {
@@ -93,8 +115,9 @@ TEST(Layout, TraceParams) {
                                    {"ray_dx", offsetof(TraceParams, ray_dx)},
                                    {"ray_dy", offsetof(TraceParams, ray_dy)},
                                    {"anchor", offsetof(TraceParams, anchor)},
-                                   {"anchor_dx", offsetof(TraceParams, anchor_dx)},
-                                   {"anchor_dy", offsetof(TraceParams, anchor_dy)},
+                                   {"frame_x", offsetof(TraceParams, frame_x)},
+                                   {"frame_y", offsetof(TraceParams, frame_y)},
+                                   {"frame_z", offsetof(TraceParams, frame_z)},
                                    {"light", offsetof(TraceParams, light)},
                                    {"grid", offsetof(TraceParams, grid)},
                                    {"width", offsetof(TraceParams, width)},
@@ -113,15 +136,17 @@ TEST(Layout, PausedRay) {
   const Held held =
       held_by(compiler, with_binding(compiler, resources.storage_buffers, BINDING_QUEUE));
   EXPECT_EQ(held.stride, sizeof(PausedRay));
-  EXPECT_EQ(held.offsets, (Offsets{{"hit", offsetof(PausedRay, hit)},
-                                   {"triangle", offsetof(PausedRay, triangle)},
-                                   {"ray", offsetof(PausedRay, ray)},
-                                   {"item", offsetof(PausedRay, item)},
-                                   {"path", offsetof(PausedRay, path)},
-                                   {"evaluations", offsetof(PausedRay, evaluations)},
-                                   {"candidates", offsetof(PausedRay, candidates)},
-                                   {"padding0", offsetof(PausedRay, padding0)},
-                                   {"padding1", offsetof(PausedRay, padding1)}}));
+  EXPECT_EQ(held.offsets, (Offsets{
+                              {"hit", offsetof(PausedRay, hit)},
+                              {"triangle", offsetof(PausedRay, triangle)},
+                              {"part", offsetof(PausedRay, part)},
+                              {"ray", offsetof(PausedRay, ray)},
+                              {"item", offsetof(PausedRay, item)},
+                              {"path", offsetof(PausedRay, path)},
+                              {"evaluations", offsetof(PausedRay, evaluations)},
+                              {"candidates", offsetof(PausedRay, candidates)},
+                              {"padding", offsetof(PausedRay, padding)},
+                          }));
 }
 
 TEST(Layout, OutputsAndPushConstants) {
@@ -144,29 +169,34 @@ TEST(Layout, OutputsAndPushConstants) {
   EXPECT_EQ(push.stride, sizeof(TilePush));
   EXPECT_EQ(push.offsets, (Offsets{{"queue", offsetof(TilePush, queue)},
                                    {"first_group", offsetof(TilePush, first_group)},
-                                   {"first_row", offsetof(TilePush, first_row)}}));
+                                   {"first_row", offsetof(TilePush, first_row)},
+                                   {"rows", offsetof(TilePush, rows)}}));
 }
 
 TEST(Layout, InterfaceIsTheKernels) {
-  const Compiler compiler = reflect();
-  const auto resources = compiler.get_shader_resources();
-  std::map<uint32_t, VkDescriptorType> in_kernel;
-  for (const auto& buffer : resources.uniform_buffers) {
-    in_kernel[compiler.get_decoration(buffer.id, spv::DecorationBinding)] =
-        VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-  }
-  for (const auto& buffer : resources.storage_buffers) {
-    in_kernel[compiler.get_decoration(buffer.id, spv::DecorationBinding)] =
-        VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+  std::map<uint32_t, VkDescriptorType> in_kernels;
+  for (const auto& spirv : {kTraceListSpirv, kViewPartsSpirv, kBinPartsSpirv, kFillSkySpirv,
+                            kTraceTilesSpirv, kTraceUndecidedSpirv}) {
+    const Compiler kernel = reflect(spirv);
+    const auto held = kernel.get_shader_resources();
+    for (const auto& buffer : held.uniform_buffers) {
+      in_kernels[kernel.get_decoration(buffer.id, spv::DecorationBinding)] =
+          VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    }
+    for (const auto& buffer : held.storage_buffers) {
+      in_kernels[kernel.get_decoration(buffer.id, spv::DecorationBinding)] =
+          VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    }
   }
   std::map<uint32_t, VkDescriptorType> in_interface;
-  const gpu::KernelInterface interface = trace_list_interface();
+  const gpu::KernelInterface interface = frame_interface();
   for (const gpu::Binding& binding : interface.bindings) {
     in_interface[binding.binding] = binding.type;
   }
-  EXPECT_EQ(in_kernel, in_interface);
+  EXPECT_EQ(in_kernels, in_interface);
   EXPECT_EQ(interface.push_size, sizeof(TilePush));
 
+  const Compiler compiler = reflect();
   std::map<uint32_t, std::string> constants;
   for (const auto& constant : compiler.get_specialization_constants()) {
     constants[constant.constant_id] = compiler.get_name(constant.id);

@@ -124,6 +124,23 @@ TEST_F(Program, ComplainsAboutFilesWithCode3) {
                    "bad.obj, line 4");
 }
 
+TEST_F(Program, PicksAnAccelerationAndSaysWhich) {
+  expect_complaint(render({"--accel", "tiles", "--preset", "thesis"}), 2, "--solver robust");
+  expect_complaint(render({"--accel", "tiles", "--backend", "opengl"}), 2, "--backend vulkan");
+  const auto accel = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"--stats", folder_ / "s.json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    EXPECT_EQ(render(arguments).exit_code, 0);
+    std::ifstream file(folder_ / "s.json");
+    return nlohmann::json::parse(file)["accel"].get<std::string>();
+  };
+  EXPECT_EQ(accel({}), "tiles");
+  EXPECT_EQ(accel({"--accel", "auto"}), "tiles");
+  EXPECT_EQ(accel({"--accel", "list"}), "list");
+  EXPECT_EQ(accel({"--preset", "thesis"}), "list");
+  EXPECT_EQ(accel({"--backend", "cpu"}), "list");
+}
+
 TEST_F(Program, ComplainsAboutDevicesWithCode4) {
   expect_complaint(render({"--device", "99"}), 4, "no Vulkan device is called '99'");
   // The refusal lists the devices by number and name.

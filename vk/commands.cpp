@@ -43,7 +43,7 @@ void Commands::begin() {
 }
 
 void Commands::dispatch(const Kernel& kernel, const BoundBuffers& buffers,
-                        std::span<const std::byte> push, uint32_t groups_x) {
+                        std::span<const std::byte> push, uint32_t groups_x, uint32_t groups_y) {
   if (push.size() != kernel.interface().push_size) {
     throw std::logic_error("a kernel with " + std::to_string(kernel.interface().push_size) +
                            " bytes of push constants got " + std::to_string(push.size()));
@@ -58,7 +58,13 @@ void Commands::dispatch(const Kernel& kernel, const BoundBuffers& buffers,
     vkCmdPushConstants(commands_, kernel.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                        static_cast<uint32_t>(push.size()), push.data());
   }
-  vkCmdDispatch(commands_, groups_x, 1, 1);
+  vkCmdDispatch(commands_, groups_x, groups_y, 1);
+}
+
+void Commands::clear(const Buffer& buffer) {
+  // What it held may still be read.
+  order_after_writes();
+  vkCmdFillBuffer(commands_, buffer.get(), 0, VK_WHOLE_SIZE, 0);
 }
 
 void Commands::copy(const Buffer& from, std::size_t from_offset, const Buffer& to,

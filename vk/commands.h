@@ -16,9 +16,13 @@ class Commands {
 
   void begin();
 
-  // Runs groups_x workgroups of the kernel. push: exactly as many bytes as its interface says.
+  // Runs groups_x times groups_y workgroups of the kernel. push: exactly as many bytes as its
+  // interface says.
   void dispatch(const Kernel& kernel, const BoundBuffers& buffers, std::span<const std::byte> push,
-                uint32_t groups_x);
+                uint32_t groups_x, uint32_t groups_y = 1);
+
+  // Sets all bytes of a buffer to 0.
+  void clear(const Buffer& buffer);
 
   // Copies the first `size` bytes of `from` to `to`, beginning at the given offsets.
   void copy(const Buffer& from, std::size_t from_offset, const Buffer& to, std::size_t to_offset,

@@ -13,9 +13,16 @@ Device::Device(const Instance& instance, const std::string& request) {
   report_ = reports[index];
   family_ = static_cast<uint32_t>(compute_family(physical));
 
-  VkPhysicalDeviceProperties properties{};
-  vkGetPhysicalDeviceProperties(physical, &properties);
-  limits_ = properties.limits;
+  VkPhysicalDeviceSubgroupProperties subgroups{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
+  properties.pNext = &subgroups;
+  vkGetPhysicalDeviceProperties2(physical, &properties);
+  limits_ = properties.properties.limits;
+  constexpr VkSubgroupFeatureFlags operations =
+      VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
+  subgroup_operations_ = (subgroups.supportedOperations & operations) == operations &&
+                         (subgroups.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
   vkGetPhysicalDeviceMemoryProperties(physical, &memory_);
   uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);

@@ -1,0 +1,18 @@
+// Which acceleration a frame is traced with.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include "app/kernel_choice.h"
+#include "app/options.h"
+
+namespace trisect {
+
+const char* accel_name(Accel accel);
+
+// What the options ask for, or, if they leave it open, the fastest one that there is for a scene of
+// so many parts: tiles wherever they can be had. Throws UsageError if what is asked for cannot be.
+Accel chosen_accel(const RenderOptions& options, Backend backend, std::size_t parts);
+
+}  // namespace trisect

@@ -1,0 +1,53 @@
+#version 450
+// Appends every part to the lists of the band's tiles that may see it. x: parts; y: BIN_ROWS rows of tiles each.
+#extension GL_GOOGLE_include_directive : require
+#include "language.h"
+#include "shared.h"
+#include "solvers.glsl"
+
+layout(local_size_x = PARTS_SIZE) in;
+
+#include "frame_buffers.glsl"
+layout(std430, binding = BINDING_VIEW_PARTS) readonly restrict buffer ViewPartsBlock { ViewPart view_parts[]; };
+layout(std430, binding = BINDING_TILE_COUNTS) restrict buffer TileCountsBlock { uint tile_counts[]; };
+layout(std430, binding = BINDING_TILE_PARTS) writeonly restrict buffer TilePartsBlock { uint tile_parts[]; };
+
+#include "every_part.glsl"
+#include "trace.glsl"
+#include "view_part.glsl"
+
+// The tile, counted from `first` on, in which an image coordinate lies; one of `count`, or first + count if beyond.
+int tile_of(float x, int first, int count) {
+  return int(clamp(floor(x / float(TILE_SIZE)), float(first), float(first + count)));
+}
+
+void main() {
+  uint part = gl_GlobalInvocationID.x;
+  if (part >= params.cage_count || cages[part].skip > 0u) return;
+  ViewPart view = view_parts[part];
+  int columns = int((params.width + TILE_SIZE - 1u) / TILE_SIZE);
+  int band_rows = int((push.rows + TILE_SIZE - 1u) / TILE_SIZE);
+  int first_row = int(push.first_row / TILE_SIZE);
+  int top = int(gl_WorkGroupID.y) * BIN_ROWS;
+  // Tiles are tested with half a pixel around them: more than the roundings of a position.
+  int left = tile_of(view.box.x - 0.5, 0, columns);
+  int right = min(tile_of(view.box.z + 0.5, 0, columns), columns - 1);
+  int row = tile_of(view.box.y - 0.5, first_row + top, BIN_ROWS);
+  int bottom = min(tile_of(view.box.w + 0.5, first_row + top, BIN_ROWS),
+                   first_row + min(top + BIN_ROWS, band_rows) - 1);
+  vec2 half_size = vec2(0.5 * float(TILE_SIZE));
+  int column = left;
+  while (row <= bottom && left <= right) {
+    vec2 middle = (vec2(column, row) + vec2(0.5)) * float(TILE_SIZE);
+    if (may_see(view, middle, half_size)) {
+      uint tile = uint((row - first_row) * columns + column);
+      uint place = atomicAdd(tile_counts[tile], 1u);
+      if (place < TILE_PARTS) tile_parts[tile * TILE_PARTS + place] = part;
+    }
+    ++column;
+    if (column > right) {
+      column = left;
+      ++row;
+    }
+  }
+}

@@ -1,0 +1,116 @@
+// What a frame's camera sees of a part: where in the image it can be, and the patch in the axes of the camera's frame.
+
+// Where a point of the camera's frame, and all within `radius` of it, is seen: x, y: image position; z: how far
+// around it; negative if not all of them lie before the eye.
+vec3 seen_at(vec3 p, real radius) {
+  real axis = params.anchor.w;
+  real before = real(1.0) + p.z / axis;
+  real closest = before - radius / axis;
+  if (!(closest > real(1e-3))) return vec3(0.0, 0.0, -1.0);
+  vec2 across = vec2(p) / before;
+  // The shift of (p + d) / (before + d.z / axis) by a d of this length.
+  real shift = radius * (real(1.0) + length2(across) / axis) / closest;
+  vec2 pixel = vec2(params.frame_x.w, params.frame_y.w);
+  vec2 middle = vec2(real(0.5) * real(params.width), real(0.5) * real(params.height));
+  return vec3(across / pixel + middle, shift / min(pixel.x, pixel.y));
+}
+
+// Draws the box and the lines around what is seen there.
+void enclose(vec3 seen, INOUT(ViewPart) view) {
+  vec3 along = vec3(view.lines_x) * seen.x + vec3(view.lines_y) * seen.y + vec3(seen.z);
+  vec3 at = max(vec3(view.lines_at), along);
+  view.lines_at = vec4(at, 0.0);
+  view.box = vec4(min(view.box.x, seen.x - seen.z), min(view.box.y, seen.y - seen.z), max(view.box.z, seen.x + seen.z),
+                  max(view.box.w, seen.y + seen.z));
+}
+
+// 0 for no length: a line without direction leaves nothing out.
+real over_length(real x, vec2 a) {
+  real size = length2(a);
+  return size > real(0.0) ? x / size : real(0.0);
+}
+
+ViewPart seen_part(uint index) {
+  Cage cage = cages[index];
+  Triangle tri = triangles[cage.triangle];
+  RayFrame frame = camera_frame(vec2(0.0));
+  FramedPatch at = turned_patch(frame, SHELL, tri);
+  Node wide = widened(node_at(cage.node, WHOLE));
+  Net across = cage_net(at, vec3(cage.corner), vec3(cage.edge), wide);
+  FramedPatch deep;
+  deep.P0 = vec3(at.P0.z, 0.0, 0.0);
+  deep.P1 = vec3(at.P1.z, 0.0, 0.0);
+  deep.P2 = vec3(at.P2.z, 0.0, 0.0);
+  deep.D0 = vec3(at.D0.z, 0.0, 0.0);
+  deep.D1 = vec3(at.D1.z, 0.0, 0.0);
+  deep.D2 = vec3(at.D2.z, 0.0, 0.0);
+  Net depth = cage_net(deep, vec3(cage.corner), vec3(cage.edge), wide);
+
+  RayFrame corner = camera_frame(vec2(real(0.5) * real(params.width) * params.frame_x.w,
+                                      real(0.5) * real(params.height) * params.frame_y.w));
+  real axial = grain(frame, tri);
+  real radius = cage.corner.w + real(2.0) * corner.stretch * axial;
+  vec3 s0 = seen_at(vec3(across.b300, depth.b300.x), radius);
+  vec3 s1 = seen_at(vec3(across.b030, depth.b030.x), radius);
+  vec3 s2 = seen_at(vec3(across.b003, depth.b003.x), radius);
+  vec3 s3 = seen_at(vec3(across.b210, depth.b210.x), radius);
+  vec3 s4 = seen_at(vec3(across.b120, depth.b120.x), radius);
+  vec3 s5 = seen_at(vec3(across.b021, depth.b021.x), radius);
+  vec3 s6 = seen_at(vec3(across.b012, depth.b012.x), radius);
+  vec3 s7 = seen_at(vec3(across.b102, depth.b102.x), radius);
+  vec3 s8 = seen_at(vec3(across.b201, depth.b201.x), radius);
+  vec3 s9 = seen_at(vec3(across.b111, depth.b111.x), radius);
+  real least_width = min(min(min(min(s0.z, s1.z), min(s2.z, s3.z)), min(min(s4.z, s5.z), min(s6.z, s7.z))),
+                         min(s8.z, s9.z));
+
+  ViewPart view;
+  // Normals of the triangle's edges, outward.
+  vec2 e0 = vec2(s1) - vec2(s0);
+  vec2 e1 = vec2(s2) - vec2(s1);
+  vec2 e2 = vec2(s0) - vec2(s2);
+  real turn = cross2(e0, e1) < real(0.0) ? real(-1.0) : real(1.0);
+  vec3 scale = vec3(over_length(turn, e0), over_length(turn, e1), over_length(turn, e2));
+  real begins = min(min(min(min(depth.b300.x, depth.b030.x), min(depth.b003.x, depth.b210.x)),
+                        min(min(depth.b120.x, depth.b021.x), min(depth.b012.x, depth.b102.x))),
+                    min(depth.b201.x, depth.b111.x));
+  view.lines_x = vec4(vec3(e0.y, e1.y, e2.y) * scale, begins - radius);
+  view.lines_y = vec4(vec3(-e0.x, -e1.x, -e2.x) * scale, real(cage.triangle));
+  view.lines_at = vec4(vec3(real(-1e30)), 0.0);
+  view.box = vec4(real(1e30), real(1e30), real(-1e30), real(-1e30));
+  enclose(s0, view);
+  enclose(s1, view);
+  enclose(s2, view);
+  enclose(s3, view);
+  enclose(s4, view);
+  enclose(s5, view);
+  enclose(s6, view);
+  enclose(s7, view);
+  enclose(s8, view);
+  enclose(s9, view);
+  // Written so that a NaN is seen everywhere.
+  if (!(least_width >= real(0.0) && view.box.z - view.box.x < real(1e20))) {
+    view.box = vec4(real(-1e30), real(-1e30), real(1e30), real(1e30));
+    view.lines_at = vec4(real(1e30));
+  }
+  view.P0 = vec4(at.P0, cage.edge.x);
+  view.P1 = vec4(at.P1, cage.edge.y);
+  view.P2 = vec4(at.P2, cage.edge.z);
+  view.D0 = vec4(at.D0, cage.node.x);
+  view.D1 = vec4(at.D1, cage.node.y);
+  view.D2 = vec4(at.D2, cage.node.z);
+  view.cone = cage.cone;
+  view.sizes = vec4(cage.node.w, axial, 0.0, 0.0);
+  return view;
+}
+
+// Around an image position, in pixels: more than the roundings of one.
+const real PIXEL_SLACK = real(0.02);
+
+// Whether a rectangle of the image, given by its middle and half its size, may see the part.
+bool may_see(ViewPart view, vec2 middle, vec2 half_size) {
+  bool in_box = view.box.x <= middle.x + half_size.x && view.box.z >= middle.x - half_size.x &&
+                view.box.y <= middle.y + half_size.y && view.box.w >= middle.y - half_size.y;
+  vec3 nearest = vec3(view.lines_x) * middle.x + vec3(view.lines_y) * middle.y -
+                 (abs(vec3(view.lines_x)) * half_size.x + abs(vec3(view.lines_y)) * half_size.y);
+  return in_box && nearest.x <= view.lines_at.x && nearest.y <= view.lines_at.y && nearest.z <= view.lines_at.z;
+}

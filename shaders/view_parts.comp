@@ -1,0 +1,22 @@
+#version 450
+// Writes what the frame's camera sees of every part.
+#extension GL_GOOGLE_include_directive : require
+#include "language.h"
+#include "shared.h"
+#include "solvers.glsl"
+
+layout(local_size_x = PARTS_SIZE) in;
+
+#include "frame_buffers.glsl"
+layout(std430, binding = BINDING_VIEW_PARTS) writeonly restrict buffer ViewPartsBlock { ViewPart view_parts[]; };
+
+#include "every_part.glsl"
+#include "trace.glsl"
+#include "view_part.glsl"
+
+void main() {
+  uint part = gl_GlobalInvocationID.x;
+  if (part >= params.cage_count) return;
+  precise ViewPart view = seen_part(part);
+  view_parts[part] = view;
+}

@@ -1,0 +1,116 @@
+// Tiles change the time of a frame, not a bit of it.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "app/cage.h"
+#include "app/hard_scenes.h"
+#include "app/vulkan_tracer.h"
+#include "tests/support/gpu.h"
+#include "tests/support/scenes.h"
+
+namespace trisect {
+namespace {
+
+class Tiles : public test::GpuTest {};
+
+BakedScene caged(const Mesh& mesh, const SurfaceChoice& choice) {
+  BakedScene scene = bake(mesh, choice);
+  scene.cages = bake_cages(scene);
+  return scene;
+}
+
+Frame trace(const BakedScene& scene, const TraceSettings& settings, Accel accel,
+            std::size_t buffer_limit = std::numeric_limits<std::size_t>::max()) {
+  VulkanTracer tracer(test::validated_device(), scene, settings.width, settings.height,
+                      {SOLVER_ROBUST, true, false, accel}, buffer_limit);
+  Frame frame;
+  tracer.render(make_params(scene, settings), frame);
+  return frame;
+}
+
+void expect_equal(const Frame& a, const Frame& b, const std::string& what) {
+  ASSERT_GT(a.hits(), 0U) << what;
+  ASSERT_EQ(a.aovs.size(), b.aovs.size());
+  EXPECT_EQ(std::memcmp(a.colors.data(), b.colors.data(), a.colors.size() * sizeof(vec4)), 0)
+      << what;
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < a.aovs.size(); ++i) {
+    const PixelAovs& p = a.aovs[i];
+    const PixelAovs& q = b.aovs[i];
+    // The work done is what may differ.
+    const bool same = p.normal_z == q.normal_z && p.geometric_u == q.geometric_u && p.v == q.v &&
+                      p.triangle == q.triangle;
+    if (!same) ++different;
+  }
+  EXPECT_EQ(different, 0U) << what;
+}
+
+// The image's sides are no multiples of a tile's.
+TraceSettings small(const Mesh& mesh, const BakedScene& scene) {
+  TraceSettings settings = test::framed(mesh, scene, 67, 51, 10);
+  settings.solver = SOLVER_ROBUST;
+  return settings;
+}
+
+TEST_F(Tiles, AreTheListToTheBit) {
+  for (const std::string& name : test::asset_names()) {
+    // Like the teapot, only larger.
+    if (name == "teapot-1000") continue;
+    const Mesh mesh = test::load_asset(name);
+    for (const SurfaceChoice& choice : {SurfaceChoice{SURFACE_FLAT, 0.0, SHELL_NORMAL},
+                                        SurfaceChoice{SURFACE_PHONG, 0.65, SHELL_NORMAL},
+                                        SurfaceChoice{SURFACE_PHONG, 0.65, SHELL_HEIGHT},
+                                        SurfaceChoice{SURFACE_SPHERE, 0.0, SHELL_NORMAL}}) {
+      // Torn by its normals into ten thousands of parts.
+      if (choice.surface == SURFACE_SPHERE && name == "teapot") continue;
+      const bool usual = choice.surface == SURFACE_PHONG && choice.shell == SHELL_NORMAL;
+      if (!usual && name != "sphere-20" && name != "cube") continue;
+      const BakedScene scene = caged(mesh, choice);
+      const TraceSettings settings = small(mesh, scene);
+      expect_equal(trace(scene, settings, Accel::list), trace(scene, settings, Accel::tiles),
+                   name + " " + std::to_string(choice.surface) + std::to_string(choice.shell));
+    }
+  }
+}
+
+TEST_F(Tiles, SeeWhatIsAroundAndBehindTheEye) {
+  const Mesh mesh = test::load_asset("torus");
+  const BakedScene scene = caged(mesh, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
+  TraceSettings settings = small(mesh, scene);
+  for (const double fov : {45.0, 170.0}) {
+    settings.camera.fov = fov;
+    // In the hole, within the tube, and so far away that the model is a few pixels.
+    for (const glm::dvec3& eye :
+         {glm::dvec3(0.01, 0.02, 0.03), glm::dvec3(scene.extent * 0.6, 0.0, 0.01),
+          glm::dvec3(scene.extent * 20.0, 1.0, 2.0)}) {
+      settings.camera.eye = scene.origin + eye;
+      settings.camera.target = scene.origin + glm::dvec3(0.3, 0.1, -0.2) * scene.extent;
+      expect_equal(trace(scene, settings, Accel::list), trace(scene, settings, Accel::tiles),
+                   std::to_string(fov) + " " + std::to_string(eye.x));
+    }
+  }
+}
+
+TEST_F(Tiles, ThatMorePartsTouchThanTheirListsHoldGoThroughAll) {
+  const Mesh mesh = hard::sphere(4);
+  const BakedScene scene = caged(mesh, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
+  // The whole model in a few tiles.
+  TraceSettings settings = test::framed(mesh, scene, 40, 24, 10);
+  settings.solver = SOLVER_ROBUST;
+  ASSERT_GT(scene.cages.size(), 15U * TILE_PARTS);
+  expect_equal(trace(scene, settings, Accel::list), trace(scene, settings, Accel::tiles), "");
+}
+
+TEST_F(Tiles, AreMadeForEveryBandOfAnImage) {
+  const Mesh mesh = test::load_asset("sphere-80");
+  const BakedScene scene = caged(mesh, {SURFACE_FLAT, 0.0, SHELL_NORMAL});
+  const TraceSettings settings = small(mesh, scene);
+  // Eight rows of 67 pixels of 48 bytes: seven bands.
+  constexpr std::size_t limit = 26000;
+  expect_equal(trace(scene, settings, Accel::list), trace(scene, settings, Accel::tiles, limit),
+               "");
+}
+
+}  // namespace
+}  // namespace trisect

@@ -1,0 +1,135 @@
+// What the bake promises about parts, and what a camera sees of them, against points of the
+// surface.
+#include "app/cage.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "app/kernel_float.h"
+#include "app/surface_double.h"
+#include "app/trace_settings.h"
+#include "app/widen.h"
+#include "tests/support/scenes.h"
+
+namespace trisect {
+namespace {
+
+using glm::dvec3;
+
+struct Choice {
+  const char* model;
+  SurfaceChoice choice;
+};
+
+const Choice kChoices[] = {{"sphere-20", {SURFACE_PHONG, 0.65, SHELL_NORMAL}},
+                           {"saddle", {SURFACE_PHONG, 1.0, SHELL_NORMAL}},
+                           {"teapot", {SURFACE_PHONG, 0.65, SHELL_NORMAL}},
+                           {"relief", {SURFACE_PHONG, 0.65, SHELL_HEIGHT}},
+                           {"sphere-80", {SURFACE_SPHERE, 0.0, SHELL_NORMAL}}};
+
+BakedScene caged(const Choice& choice) {
+  BakedScene scene = bake(test::load_asset(choice.model), choice.choice);
+  scene.cages = bake_cages(scene);
+  return scene;
+}
+
+dvec3 weights_in(const Cage& cage, const dvec3& l) {
+  return dvec3(cage.node) + l * static_cast<double>(cage.node.w);
+}
+
+// No line within a part's cone is tangent to the enlarged part: S_u, S_v and the line keep their
+// orientation.
+TEST(Cage, LinesWithinItsConeCrossThePartOneWay) {
+  std::size_t cones = 0;
+  for (const Choice& choice : kChoices) {
+    const BakedScene scene = caged(choice);
+    for (const Cage& cage : scene.cages) {
+      if (cage.cone.w == NO_CONE) continue;
+      ++cones;
+      const in_double::Triangle tri = widen(scene.triangles[cage.triangle]);
+      const in_double::Shape shape = shape_of(choice.choice);
+      const dvec3 n(cage.cone);
+      const dvec3 x = glm::normalize(std::abs(n.x) < 0.5 ? glm::cross(n, {1.0, 0.0, 0.0})
+                                                         : glm::cross(n, {0.0, 1.0, 0.0}));
+      const dvec3 y = glm::cross(n, x);
+      const double cosine = cage.cone.w;
+      const double sine = std::sqrt(1.0 - cosine * cosine);
+      for (const dvec3& l : test::weight_grid(6)) {
+        const dvec3 w =
+            weights_in(cage, l * (1.0 + 3.0 * CONE_MARGIN) - dvec3(double{CONE_MARGIN}));
+        const auto sigma = in_double::displacement_and_derivatives(shape, tri, w);
+        const auto direction = [&](int i) {
+          return in_double::corner_direction(choice.choice.shell, tri.Normal[i], tri.NormDot[i]);
+        };
+        const dvec3 D = in_double::weigh(w, direction(0), direction(1), direction(2));
+        const dvec3 u = dvec3(tri.Position[1] - tri.Position[0]) + D * sigma.u +
+                        (direction(1) - direction(0)) * sigma.s;
+        const dvec3 v = dvec3(tri.Position[2] - tri.Position[0]) + D * sigma.v +
+                        (direction(2) - direction(0)) * sigma.s;
+        const double side = glm::dot(glm::cross(u, v), n);
+        for (int k = 0; k < 16; ++k) {
+          const double angle = k * std::acos(-1.0) / 8.0;
+          const dvec3 d = n * cosine + (x * std::cos(angle) + y * std::sin(angle)) * sine;
+          ASSERT_GT(glm::dot(glm::cross(u, v), d) * side, 0.0)
+              << choice.model << " triangle " << cage.triangle;
+        }
+      }
+    }
+  }
+  EXPECT_GT(cones, 1000U);
+}
+
+// The image positions of points of the surface lie in the box and within the lines that the kernel
+// draws around their part, and not before the depth at which it begins.
+TEST(ViewPart, HoldsWhatIsSeenOfThePart) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  std::size_t points = 0;
+  double tightest = 1e30;
+  for (const Choice& choice : kChoices) {
+    const BakedScene scene = caged(choice);
+    for (int view = 0; view < 6; ++view) {
+      TraceSettings settings;
+      settings.width = 640;
+      settings.height = 480;
+      const dvec3 from(unit(random), unit(random), unit(random));
+      // Every other camera stands within the model.
+      settings.camera.eye = scene.origin + from * scene.radius * (view % 2 == 0 ? 4.0 : 0.5);
+      settings.camera.target = scene.origin + dvec3(unit(random), 0.1, 0.2) * scene.radius * 0.2;
+      const TraceParams params = make_params(scene, settings);
+      in_float::Kernel kernel = in_float::kernel_of(scene, params, {});
+      const dvec3 X(params.frame_x);
+      const dvec3 Y(params.frame_y);
+      const dvec3 Z(params.frame_z);
+      for (uint32_t part = 0; part < scene.cages.size(); part += 7) {
+        const Cage& cage = scene.cages[part];
+        const ViewPart seen = kernel.seen_part(part);
+        for (const dvec3& l : test::weight_grid(4)) {
+          const dvec3 S =
+              in_double::surface_point(shape_of(choice.choice),
+                                       widen(scene.triangles[cage.triangle]), weights_in(cage, l)) -
+              dvec3(params.anchor);
+          const double z = glm::dot(S, Z);
+          EXPECT_GE(z, seen.lines_x.w);
+          const double before = 1.0 + z / params.anchor.w;
+          if (before <= 1e-3) continue;
+          const glm::dvec2 p(glm::dot(S, X) / before / params.frame_x.w + 320.0,
+                             glm::dot(S, Y) / before / params.frame_y.w + 240.0);
+          if (std::max(std::abs(p.x), std::abs(p.y)) > 1e4) continue;
+          ++points;
+          ASSERT_TRUE(kernel.may_see(seen, glm::vec2(p), glm::vec2(kernel.PIXEL_SLACK)))
+              << choice.model << " part " << part << " view " << view << " at " << p.x << ", "
+              << p.y;
+          tightest = std::min(tightest, double{seen.box.z} - p.x);
+        }
+      }
+    }
+  }
+  EXPECT_GT(points, 10000U);
+  // The box is no larger than it must be.
+  EXPECT_LT(tightest, 0.5);
+}
+
+}  // namespace
+}  // namespace trisect
