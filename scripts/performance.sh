@@ -44,8 +44,8 @@ scripts/unpack-mesa.sh >/dev/null
 # Speed
 
 Written by \`scripts/performance.sh\` on $(nproc) cores: milliseconds on the device for a frame of 800x600 with the default
-camera, medians of 3 frames after a warm-up (tiles: 9). Device: $(figure .device). The machine is shared: 20% either way
-means nothing.
+camera, medians of 3 frames after a warm-up (tiles: 9). Device: $(figure .device).
+The machine is shared: 20% either way means nothing.
 
 - thesis: every triangle at every pixel, bisection at Rank 10, height shell (\`--preset thesis\`). It drops pixels and finds
   a root rather than the first one; the other two columns are exact
