@@ -28,7 +28,7 @@ row() {
     (map(.pixels) | add), (map(.hit_mismatches) | add), (map(.patch_mismatches) | add),
     "\(map(.z_bit_equal) | add) of \(map(.z_pixels) | add)", (map(.z_ulp.p99) | max | .*10 | round / 10),
     (map(.color_rmse) | max | .*1000 | round / 1000), (map(.color_max) | max | .*1000 | round / 1000),
-    (map(select(.excesses | length > 0)) | length), ""] | join(" | ")' "$work/all.json"
+    (map(select(.excesses | length > 0)) | length), ""] | join(" | ") | rtrimstr(" ")' "$work/all.json"
 }
 
 {
@@ -37,8 +37,8 @@ row() {
 # Vulkan against OpenGL
 
 Written by \`scripts/crosscheck.sh $size\`: \`trisect crosscheck\` on ${#models[@]} models (8 where the robust solver meets the
-sphere surface: the teapots' torn patches take it minutes). $(sed -n '2,3p' "$work/text" | paste -sd'; '). Both run on the same
-llvmpipe: agreement proves the front ends and the plumbing, not hardware.
+sphere surface: the teapots' torn patches take it minutes). $(sed -n '2,3p' "$work/text" | paste -sd'|' | sed 's/|/; /'). Both run on
+the same llvmpipe, Vulkan's robust frames by tiles, OpenGL's by the list: agreement proves the front ends and the plumbing, not hardware.
 
 \`compute\` is the kernel of Vulkan, \`fragment\` the thesis's full-screen quad, whose rays the rasteriser interpolates.
 Mismatches and Z are sums over the models, the rest is the worst model's: Z in units in the last place, colour in steps of
