@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string_view>
 
 #include "app/kernel_choice.h"
 #include "app/options.h"

@@ -81,8 +81,7 @@ std::vector<Row> measure_model(const gpu::Device& device, const AccuracyOptions&
   std::vector<Row> rows;
   for (const uint surface : options.surfaces) {
     for (const uint shell : options.shells) {
-      BakedScene scene = bake(mesh, {surface, options.alpha, shell});
-      scene.cages = bake_cages(scene);
+      const BakedScene scene = bake_with_cages(mesh, {surface, options.alpha, shell});
       TraceSettings settings;
       settings.width = options.width;
       settings.height = options.height;

@@ -7,6 +7,7 @@
 
 #include "app/enclosing_ball.h"
 #include "app/kernel_float.h"
+#include "app/raise.h"
 #include "app/surface_double.h"
 #include "app/widen.h"
 
@@ -22,10 +23,11 @@ constexpr double kClose = 0.02;
 constexpr double kTangentsClose = 0.1;
 constexpr int kMostLevels = 6;
 
-// Rays are quick where they go through a part's cone (Cage::cone), whose sine should be at most so
+// Rays are quick along the directions of a part's cone (Cage::cone), whose w should be at most so
 // large; else the part is divided, for this reason no further than to 4^2 parts of a patch.
 constexpr float kWide = 0.3F;
 constexpr int kLevelsForCones = 2;
+const vec4 kNoCone(0.0F, 0.0F, 0.0F, NO_CONE);
 
 // sigma is sampled at the weights with this denominator; between the samples it may stray further
 // by this factor.
@@ -141,24 +143,27 @@ std::vector<Sample> samples_of(const Patch& patch, const Part& part, const Quadr
   return samples;
 }
 
-// Written so that a NaN counts as infinite.
-void raise(double& most, double value) {
-  if (!(value <= most)) most = value;
+// Raises `stray` to how far S_u and S_v are from the cage's at the sample.
+void raise_tangent_stray(const Patch& patch, const Sample& a, double& stray) {
+  const dvec3 D = in_double::weigh(a.w, patch.D[0], patch.D[1], patch.D[2]);
+  raise(stray, glm::length(D * a.gradient.x + (patch.D[1] - patch.D[0]) * a.e));
+  raise(stray, glm::length(D * a.gradient.y + (patch.D[2] - patch.D[0]) * a.e));
 }
 
 Fit fit(const Patch& patch, const Part& part) {
+  const bool cubic = in_double::is_cubic(patch.shape);
   Fit fit;
-  fit.q = through(
-      part, [&](const dvec3& w) { return in_double::displacement(patch.shape, patch.tri, w); });
+  // Of a cubic patch as the kernels have it from the triangle, to the bit.
+  fit.q =
+      cubic ? Quadratic{dvec3(0.0), dvec3(patch.bulges) * 0.5} : through(part, [&](const dvec3& w) {
+        return in_double::displacement(patch.shape, patch.tri, w);
+      });
   const double longest_D = longest_direction(patch);
   // Rounding of the coefficients to single precision.
   constexpr double rounding = 2e-7;
   const dvec3 size = glm::max(glm::abs(fit.q.corner), glm::abs(fit.q.edge));
   const double rounded = rounding * std::max({size.x, size.y, size.z}) * longest_D;
-  if (patch.shape.surface == SURFACE_PHONG && patch.shape.shell == SHELL_NORMAL) {
-    // To the bit as the kernels have it from the triangle.
-    fit.q.corner = dvec3(0.0);
-    fit.q.edge = dvec3(patch.bulges) * 0.5;
+  if (cubic) {
     fit.stray = rounded;
     fit.tangent_stray = rounded;
     return fit;
@@ -167,8 +172,7 @@ Fit fit(const Patch& patch, const Part& part) {
   for (const Sample& a : samples) {
     const dvec3 D = in_double::weigh(a.w, patch.D[0], patch.D[1], patch.D[2]);
     raise(fit.stray, glm::length(D) * std::abs(a.e));
-    raise(fit.tangent_stray, glm::length(D * a.gradient.x + (patch.D[1] - patch.D[0]) * a.e));
-    raise(fit.tangent_stray, glm::length(D * a.gradient.y + (patch.D[2] - patch.D[0]) * a.e));
+    raise_tangent_stray(patch, a, fit.tangent_stray);
     for (const Sample& b : samples) {
       const double distance = std::hypot(a.w.y - b.w.y, a.w.z - b.w.z);
       // Neighbours on the grid; those farther away have been seen in steps.
@@ -238,11 +242,7 @@ double norm_of(const glm::dmat2& m) {
 double tangents_stray(const Patch& patch, const Part& part, const Fit& fit) {
   if (fit.bend == 0.0) return fit.tangent_stray;
   double most = 0.0;
-  for (const Sample& a : samples_of(patch, part, fit.q)) {
-    const dvec3 D = in_double::weigh(a.w, patch.D[0], patch.D[1], patch.D[2]);
-    raise(most, glm::length(D * a.gradient.x + (patch.D[1] - patch.D[0]) * a.e));
-    raise(most, glm::length(D * a.gradient.y + (patch.D[2] - patch.D[0]) * a.e));
-  }
+  for (const Sample& a : samples_of(patch, part, fit.q)) raise_tangent_stray(patch, a, most);
   return std::max(kBetweenSamples * most, fit.tangent_stray);
 }
 
@@ -252,7 +252,6 @@ double tangents_stray(const Patch& patch, const Part& part, const Fit& fit) {
 // M0 (1 + E - t g^T), t the tangent of the angle between d and n, E and g those of (u_i, v_i): it
 // is one to one if |E| + t |g| < 1 for all i.
 vec4 normal_cone(const Patch& patch, const Part& part, const Fit& fit) {
-  const vec4 none(0.0F, 0.0F, 0.0F, NO_CONE);
   const Part large = enlarged(part, CONE_MARGIN);
   const Net b = net_of(patch, large, fit.q);
   const std::array<dvec3, 6> u{b[3] - b[0], b[1] - b[4], b[6] - b[7],
@@ -272,20 +271,23 @@ vec4 normal_cone(const Patch& patch, const Part& part, const Fit& fit) {
   const glm::dmat2 inverse = glm::inverse(glm::dmat2(in_plane(mean_u), in_plane(mean_v)));
   const double stray = tangents_stray(patch, large, fit) * std::abs(large.size) / 3.0 *
                        std::sqrt(2.0) * norm_of(inverse);
-  double steepest = std::numeric_limits<double>::infinity();
+  // The largest |g| / (1 - |E|): the cotangent of the smallest angle with n that is too large.
+  double flattest = 0.0;
   for (std::size_t i = 0; i < 6; ++i) {
     const glm::dmat2 change =
         glm::dmat2(in_plane(u[i]), in_plane(v[i])) * inverse - glm::dmat2(1.0);
+    const double room = 1.0 - norm_of(change) - stray;
+    // Written so that a NaN has no cone.
+    if (!(room > 0.0)) return kNoCone;
     const double bend =
         glm::length(glm::dvec2(glm::dot(u[i], n), glm::dot(v[i], n)) * inverse) + stray;
-    const double least = (1.0 - norm_of(change) - stray) / bend;
-    // Written so that a NaN has no cone.
-    if (!(least >= steepest)) steepest = least;
+    raise(flattest, bend / room);
   }
-  if (!(steepest > 0.1)) return none;
+  constexpr double narrowest = 10.0;
+  if (!(flattest < narrowest)) return kNoCone;
   // Of the ray's direction and the axis in single precision.
   constexpr double rounding = 1e-5;
-  return {glm::vec3(n), static_cast<float>(1.0 / std::hypot(1.0, steepest) + rounding)};
+  return {glm::vec3(n), static_cast<float>(flattest / std::hypot(flattest, 1.0) + rounding)};
 }
 
 Cage cage_of(const Patch& patch, const Part& part, const Fit& fit, uint32_t triangle) {
@@ -300,7 +302,7 @@ Cage cage_of(const Patch& patch, const Part& part, const Fit& fit, uint32_t tria
   cage.node = vec4(glm::vec3(part.origin), static_cast<float>(part.size));
   cage.corner = vec4(glm::vec3(fit.q.corner), rounded_up(fit.stray));
   cage.edge = vec4(glm::vec3(fit.q.edge), rounded_up(fit.tangent_stray));
-  cage.cone = normal_cone(patch, part, fit);
+  cage.cone = kNoCone;
   cage.triangle = triangle;
   cage.bend = fit.bend > 0.0 ? rounded_up(fit.bend) : 0.0F;
   // Less than the roundings of a position.
@@ -321,8 +323,10 @@ void cage_part(const Patch& patch, const Part& part, int level, uint32_t triangl
       found.stray <= kClose * size && found.tangent_stray <= kTangentsClose * patch.tri.TriNormal.w;
   const std::size_t index = cages.size();
   cages.push_back(cage_of(patch, part, found, triangle));
-  const bool steep = cages[index].cone.w <= kWide || level >= kLevelsForCones;
-  if ((close && steep) || level == kMostLevels) return;
+  if (close || level == kMostLevels) {
+    cages[index].cone = normal_cone(patch, part, found);
+    if (cages[index].cone.w <= kWide || level >= kLevelsForCones) return;
+  }
   const double half = part.size * 0.5;
   for (int k = 0; k < 3; ++k) {
     cage_part(patch, {part.origin + corner(k) * half, half}, level + 1, triangle, cages);
@@ -348,6 +352,12 @@ std::vector<Cage> bake_cages(const BakedScene& scene) {
               cages);
   }
   return cages;
+}
+
+BakedScene bake_with_cages(const Mesh& mesh, const SurfaceChoice& choice) {
+  BakedScene scene = bake(mesh, choice);
+  scene.cages = bake_cages(scene);
+  return scene;
 }
 
 }  // namespace trisect

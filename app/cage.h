@@ -13,6 +13,9 @@ namespace trisect {
 // in the order of the scene's triangles.
 std::vector<Cage> bake_cages(const BakedScene& scene);
 
+// bake(), and the cages.
+BakedScene bake_with_cages(const Mesh& mesh, const SurfaceChoice& choice);
+
 // Whether some patch has several.
 bool has_groups(const BakedScene& scene);
 

@@ -21,9 +21,7 @@ namespace {
 using glm::dvec3;
 
 BakedScene robust_scene(const Mesh& mesh) {
-  BakedScene scene = bake(mesh, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
-  scene.cages = bake_cages(scene);
-  return scene;
+  return bake_with_cages(mesh, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
 }
 
 // The pixel's ray, rounded to single precision as the kernel's is.

@@ -64,8 +64,7 @@ struct Prepared {
 
 Prepared prepare(const RayCase& hard, uint surface, uint shell) {
   Prepared prepared;
-  prepared.scene = bake(hard.mesh(), {surface, hard.alpha, shell});
-  prepared.scene.cages = bake_cages(prepared.scene);
+  prepared.scene = bake_with_cages(hard.mesh(), {surface, hard.alpha, shell});
   TraceSettings settings;
   settings.rank = hard.rank;
   // The rays are the case's own; any camera will do that looks somewhere.

@@ -47,7 +47,10 @@ struct Kernel {
 #include "shaders/every_part.glsl"
 #pragma GCC diagnostic pop
 #include "shaders/trace.glsl"
+// What a camera sees needs its frame, above.
 #include "shaders/view_part.glsl"
+// The box and the lines of that.
+#include "shaders/may_see.glsl"
 };
 
 #undef real

@@ -43,9 +43,9 @@ LoadedScene load_scene(const RenderOptions& options) {
   });
   fmt::print("{}: {}\n", options.model, describe(built.report));
   loaded.scene = timed(loaded.bake_ms, [&] {
-    BakedScene baked = bake(built.mesh, {options.surface, options.alpha, options.shell});
-    if (options.solver == SOLVER_ROBUST) baked.cages = bake_cages(baked);
-    return baked;
+    const SurfaceChoice choice{options.surface, options.alpha, options.shell};
+    return options.solver == SOLVER_ROBUST ? bake_with_cages(built.mesh, choice)
+                                           : bake(built.mesh, choice);
   });
   loaded.params = make_params(loaded.scene, settings_for(options, built.mesh, loaded.scene));
   return loaded;

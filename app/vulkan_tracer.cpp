@@ -35,13 +35,6 @@ std::optional<TileLists> lists_for(const gpu::Device& device, const BakedScene& 
                                   static_cast<uint32_t>(scene.cages.size()), width, band_rows);
 }
 
-std::optional<gpu::Kernel> undecided_kernel(const gpu::Device& device, const BakedScene& scene,
-                                            const KernelChoice& choice) {
-  if (choice.accel != Accel::tiles) return std::nullopt;
-  return std::optional<gpu::Kernel>(std::in_place, device, kTraceUndecidedSpirv, frame_interface(),
-                                    constants_of(scene, choice), "trace_undecided");
-}
-
 }  // namespace
 
 VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, uint32_t width,
@@ -55,7 +48,6 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
       tiles_(lists_for(device, scene, choice, width, band_rows_)),
       kernel_(device, tiles_ ? kTraceTilesSpirv : kTraceListSpirv, frame_interface(),
               constants_of(scene, choice), tiles_ ? "trace_tiles" : "trace_list"),
-      undecided_kernel_(undecided_kernel(device, scene, choice)),
       commands_(device),
       staging_(device, kStagingBytes),
       params_(device, sizeof(TraceParams), gpu::Memory::device, "trace parameters"),
@@ -121,7 +113,7 @@ double VulkanTracer::render_band(uint32_t first_row, uint32_t rows,
     groups.begin = 0;
     gpu_ms = tiles_->bin(commands_, bound_, first_row, rows, groups.end);
   }
-  const gpu::Kernel& rest = undecided_kernel_ ? *undecided_kernel_ : kernel_;
+  const gpu::Kernel& rest = tiles_ ? tiles_->undecided_kernel() : kernel_;
   for (uint32_t group = groups.begin; group < groups.end;) {
     const uint32_t count = std::min({budget_.groups(), groups.end - group, groups.most()});
     const double ms =

@@ -46,7 +46,6 @@ class VulkanTracer {
   uint32_t band_rows_;
   std::optional<TileLists> tiles_;
   gpu::Kernel kernel_;
-  std::optional<gpu::Kernel> undecided_kernel_;  // with tiles
   gpu::Commands commands_;
   gpu::Staging staging_;
   gpu::Buffer params_;

@@ -7,22 +7,16 @@ scripts/setup.sh build docs
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# measure DRIVER MODEL SURFACE RANK RUNS: renders at 800x600, leaving the figures for figure(). DRIVER is `stock` or
-# `newer`, the one that unpack-mesa.sh unpacks.
-measure() {
-  local environment=()
-  if [ "$1" = newer ]; then read -ra environment < <(scripts/unpack-mesa.sh); fi
-  env "${environment[@]}" build/release/trisect render "assets/$2.obj" --preset thesis --surface "$3" --rank "$4" --runs "$5" \
-    -o "$work/a.png" --stats "$work/a.json" >/dev/null
-}
-# figure PATH: a figure of the last measurement, such as .hits or .gpu_ms.median.
-figure() { jq -r "$1" "$work/a.json"; }
+. scripts/measure.sh
+
+# thesis DRIVER MODEL SURFACE RANK RUNS
+thesis() { measure "$1" "$2" "$5" --preset thesis --surface "$3" --rank "$4"; }
 
 scripts/unpack-mesa.sh >/dev/null
 {
-  measure newer sphere-20 phong 10 1
+  thesis newer sphere-20 phong 10 1
   newer=$(figure .driver)
-  measure stock sphere-20 phong 10 1
+  thesis stock sphere-20 phong 10 1
   cat <<END
 # The baseline
 
@@ -41,15 +35,15 @@ Milliseconds on the device, medians of 5 frames after a warm-up. The last column
 | thesis | here | triangles | phong, A | phong, B | sphere, A | sphere, B | thesis |
 |---|---|---|---|---|---|---|---|
 END
-  while read -r thesis model milliseconds; do
+  while read -r name model milliseconds; do
     row=""
     for surface in phong sphere; do
       for driver in stock newer; do
-        measure "$driver" "$model" "$surface" 10 5
+        thesis "$driver" "$model" "$surface" 10 5
         row+=" $(printf '%.0f' "$(figure .gpu_ms.median)") |"
       done
     done
-    echo "| $thesis | $model | $(figure .patches) |$row $milliseconds |"
+    echo "| $name | $model | $(figure .patches) |$row $milliseconds |"
   done <<< $'SphereHigh sphere-20 15\nFresko relief 25\nTeapot teapot 51'
   cat <<END
 
@@ -60,14 +54,14 @@ sphere-20 on driver A: pixels hit, and which part of those hit at Rank 30 is mis
 | Rank | phong | missing | sphere | missing |
 |---|---|---|---|---|
 END
-  measure stock sphere-20 phong 30 1
+  thesis stock sphere-20 phong 30 1
   phong=$(figure .hits)
-  measure stock sphere-20 sphere 30 1
+  thesis stock sphere-20 sphere 30 1
   sphere=$(figure .hits)
   for rank in 6 8 10 12 14 16 18 20 30; do
-    measure stock sphere-20 phong "$rank" 1
+    thesis stock sphere-20 phong "$rank" 1
     p=$(figure .hits)
-    measure stock sphere-20 sphere "$rank" 1
+    thesis stock sphere-20 sphere "$rank" 1
     s=$(figure .hits)
     awk -v r="$rank" -v p="$p" -v P="$phong" -v s="$s" -v S="$sphere" \
       'function missing(n, N) { return n < N ? 100 * (N - n) / N : 0 }

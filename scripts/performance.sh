@@ -4,42 +4,34 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh build docs
 cmake --preset release >/dev/null
-cmake --build --preset release --target trisect assets
+cmake --build --preset release --target trisect
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 models=(sphere-20 sphere-80 sphere-320 teapot teapot-1000 torus relief)
 
-# model NAME: its file.
-model() { [ -f "assets/$1.obj" ] && echo "assets/$1.obj" || echo "build/release/assets/$1.obj"; }
-# measure DRIVER MODEL RUNS OPTIONS...: renders at 800x600, leaving the figures for figure(). DRIVER is `stock` or `newer`.
-measure() {
-  local driver=$1 file runs=$3 environment=()
-  file=$(model "$2")
-  shift 3
-  if [ "$driver" = newer ]; then read -ra environment < <(scripts/unpack-mesa.sh); fi
-  env "${environment[@]}" build/release/trisect render "$file" --runs "$runs" -o "$work/a.png" --stats "$work/a.json" "$@" >/dev/null
-}
-figure() { jq -r "$1" "$work/a.json"; }
+. scripts/measure.sh
 ms() { figure '.gpu_ms.median | if . < 100 then (. * 10 | round / 10) else round end'; }
 
 # One line: the thesis, the robust solver with all patches and with tiles, and how much faster the last is than the first.
 row() {
-  local driver=$1 name=$2 surface=$3 thesis list tiles patches
-  measure "$driver" "$name" 3 --surface "$surface" --preset thesis
+  local driver=$1 model=$2 surface=$3 thesis list tiles patches
+  measure "$driver" "$model" 3 --surface "$surface" --preset thesis
   thesis=$(ms)
-  measure "$driver" "$name" 3 --surface "$surface" --accel list
+  measure "$driver" "$model" 3 --surface "$surface" --accel list
   list=$(ms)
-  measure "$driver" "$name" 9 --surface "$surface" --accel tiles
+  measure "$driver" "$model" 9 --surface "$surface" --accel tiles
   tiles=$(ms)
   patches=$(figure .patches)
-  echo "| $name | $patches | $surface | $thesis | $list | $tiles | $(jq -n "$thesis / $tiles | . * 10 | round / 10") |"
+  echo "| $model | $patches | $surface | $thesis | $list | $tiles | $(jq -n "$thesis / $tiles | . * 10 | round / 10") |"
 }
 
 scripts/unpack-mesa.sh >/dev/null
 {
-  measure newer sphere-20 1
-  newer=$(figure .driver)
-  measure stock sphere-20 1
+  declare -A name
+  for driver in newer stock; do
+    measure $driver sphere-20 1
+    name[$driver]=$(figure .driver)
+  done
   cat <<END
 # Speed
 
@@ -53,12 +45,11 @@ The machine is shared: 20% either way means nothing.
 - tiles: the same picture from lists of the parts that 8x8 pixels touch
 END
   for driver in newer stock; do
-    printf '\n## %s\n\n' "$([ $driver = newer ] && echo "$newer" || figure .driver)"
+    printf '\n## %s\n\n' "${name[$driver]}"
     echo '| model | patches | surface | thesis | list | tiles | thesis / tiles |'
     echo '|---|---|---|---|---|---|---|'
-    for name in "${models[@]}"; do row $driver "$name" phong; done
-    for name in sphere-20 sphere-80 sphere-320; do row $driver "$name" sphere; done
-    measure stock sphere-20 1
+    for model in "${models[@]}"; do row $driver "$model" phong; done
+    for model in sphere-20 sphere-80 sphere-320; do row $driver "$model" sphere; done
   done
 } >"$work/performance.md"
 mv "$work/performance.md" docs/performance.md

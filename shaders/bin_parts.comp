@@ -12,12 +12,10 @@ layout(std430, binding = BINDING_VIEW_PARTS) readonly restrict buffer ViewPartsB
 layout(std430, binding = BINDING_TILE_COUNTS) restrict buffer TileCountsBlock { uint tile_counts[]; };
 layout(std430, binding = BINDING_TILE_PARTS) writeonly restrict buffer TilePartsBlock { uint tile_parts[]; };
 
-#include "every_part.glsl"
-#include "trace.glsl"
-#include "view_part.glsl"
+#include "may_see.glsl"
 
-// The tile, counted from `first` on, in which an image coordinate lies; one of `count`, or first + count if beyond.
-int tile_of(float x, int first, int count) {
+// The row or column of tiles, of `count` from `first` on, in which an image coordinate lies; first + count if beyond.
+int tile_along(float x, int first, int count) {
   return int(clamp(floor(x / float(TILE_SIZE)), float(first), float(first + count)));
 }
 
@@ -25,15 +23,15 @@ void main() {
   uint part = gl_GlobalInvocationID.x;
   if (part >= params.cage_count || cages[part].skip > 0u) return;
   ViewPart view = view_parts[part];
-  int columns = int((params.width + TILE_SIZE - 1u) / TILE_SIZE);
-  int band_rows = int((push.rows + TILE_SIZE - 1u) / TILE_SIZE);
+  int columns = int(tiles_across(params.width));
+  int band_rows = int(tiles_across(push.rows));
   int first_row = int(push.first_row / TILE_SIZE);
   int top = int(gl_WorkGroupID.y) * BIN_ROWS;
   // Tiles are tested with half a pixel around them: more than the roundings of a position.
-  int left = tile_of(view.box.x - 0.5, 0, columns);
-  int right = min(tile_of(view.box.z + 0.5, 0, columns), columns - 1);
-  int row = tile_of(view.box.y - 0.5, first_row + top, BIN_ROWS);
-  int bottom = min(tile_of(view.box.w + 0.5, first_row + top, BIN_ROWS),
+  int left = tile_along(view.box.x - 0.5, 0, columns);
+  int right = min(tile_along(view.box.z + 0.5, 0, columns), columns - 1);
+  int row = tile_along(view.box.y - 0.5, first_row + top, BIN_ROWS);
+  int bottom = min(tile_along(view.box.w + 0.5, first_row + top, BIN_ROWS),
                    first_row + min(top + BIN_ROWS, band_rows) - 1);
   vec2 half_size = vec2(0.5 * float(TILE_SIZE));
   int column = left;

@@ -113,8 +113,8 @@ bool beside(Net net, vec2 a, real reach) {
   return low > most || high < -most;
 }
 
-// Whether the cage comes within `reach` of the ray, as far as its extents along the triangle's edges, and across the
-// longest one, tell.
+// Whether the cage comes within `reach` of the ray, as far as its extents across the triangle's edges, and along the
+// median between two of them, tell.
 bool near_ray(Net net, real reach) {
   vec2 a = net.b030 - net.b300;
   vec2 b = net.b003 - net.b300;

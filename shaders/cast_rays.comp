@@ -44,6 +44,6 @@ void main() {
   if (is_through(ray, walk)) {
     hits[index] = hit_cast(ray, walk);
   } else {
-    pause(push.queue.to + atomicAdd(queued, 1u), index, walk);
+    enqueue(index, walk);
   }
 }

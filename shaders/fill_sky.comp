@@ -8,13 +8,12 @@
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 
 #include "frame_buffers.glsl"
-layout(std430, binding = BINDING_COLOR) writeonly restrict buffer ColorBlock { vec4 colors[]; };
-layout(std430, binding = BINDING_AOVS) writeonly restrict buffer AovsBlock { PixelAovs pixels[]; };
 layout(std430, binding = BINDING_TILE_ORDER) writeonly restrict buffer TileOrderBlock { uint tile_order[]; };
 layout(std430, binding = BINDING_TILES_SEEN) restrict buffer TilesSeenBlock { uint tiles_seen; };
 
 #include "tile_parts.glsl"
 #include "trace.glsl"
+#include "write_pixel.glsl"
 
 void main() {
   uint tile = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
@@ -25,10 +24,5 @@ void main() {
   uvec2 pixel = gl_GlobalInvocationID.xy + uvec2(0u, push.first_row);
   if (pixel.x >= params.width || pixel.y >= params.height) return;
   precise PixelRay ray = pixel_ray(pixel);
-  precise vec4 color;
-  precise PixelAovs aovs;
-  finish_pixel(ray, walk_begun(0), color, aovs);
-  uint index = (pixel.y - push.first_row) * params.width + pixel.x;
-  colors[index] = color;
-  if (AOVS) pixels[index] = aovs;
+  write_pixel(pixel, ray, walk_begun(0));
 }

@@ -23,3 +23,6 @@ layout(std430, binding = BINDING_TRIANGLES) readonly restrict buffer TrianglesBl
   Triangle triangles[];
 };
 layout(std430, binding = BINDING_CAGES) readonly restrict buffer CagesBlock { Cage cages[]; };
+
+// Tiles that so many pixels of a row or a column touch.
+uint tiles_across(uint pixels) { return (pixels + TILE_SIZE - 1u) / TILE_SIZE; }

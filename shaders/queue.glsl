@@ -29,3 +29,6 @@ void pause(uint place, uint ray, Walk walk) {
   paused[place].evaluations = walk.counts.evaluations;
   paused[place].candidates = walk.counts.candidates;
 }
+
+// At the next place of the half that is filled.
+void enqueue(uint ray, Walk walk) { pause(push.queue.to + atomicAdd(queued, 1u), ray, walk); }

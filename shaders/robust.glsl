@@ -79,7 +79,7 @@ real grain(RayFrame frame, Triangle tri) {
 
 // The quadratic of a cubic patch is sigma itself.
 Displacement displacement_in(Shape shape, Triangle tri, Cage cage, vec3 w) {
-  if (shape.surface == SURFACE_PHONG && shape.shell == SHELL_NORMAL) return bulged(vec3(cage.edge) * real(2.0), w);
+  if (is_cubic(shape)) return bulged(vec3(cage.edge) * real(2.0), w);
   return displacement_and_derivatives(shape, tri, w);
 }
 

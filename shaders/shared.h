@@ -26,9 +26,8 @@ struct Cage {
   vec4 corner;  // xyz: q(e_0, e_0), q(e_1, e_1), q(e_2, e_2); w: how far S strays from T + q D,
                 // length
   vec4 edge;    // xyz: q(e_0, e_1), q(e_1, e_2), q(e_0, e_2); w: the same of S_u and S_v
-  // xyz, w: axis and sine of a cone that contains S_u(a) x S_v(b) for all points a, b of the
-  // enlarged part. No line that makes a larger angle with its complement meets that twice. NO_CONE:
-  // there is none.
+  // No line along a unit vector d with |dot(d, cone.xyz)| > cone.w, cone.xyz a unit vector too,
+  // meets the part, enlarged by CONE_MARGIN, twice. w is NO_CONE if nothing is known of any d.
   vec4 cone;
   uint triangle;
   uint flat_part;  // 1: sigma is 0
@@ -155,7 +154,7 @@ struct CastPush {
 
 const uint NO_TRIANGLE = 4294967295u;
 
-// A sine that no angle has.
+// More than any cosine.
 const float NO_CONE = 2.0;
 // A node is searched with so much of its size around it: no root is lost on the border of two
 // nodes.

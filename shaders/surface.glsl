@@ -50,6 +50,9 @@ real edge_bulge(vec4 Pi, vec4 Pj, vec4 Ni, vec4 Nj, real alpha) {
   return alpha * dot3(vec3(Pj) - vec3(Pi), vec3(Nj) - vec3(Ni));
 }
 
+// Whether S is a cubic Bezier triangle, sigma a quadratic.
+bool is_cubic(Shape shape) { return shape.surface == SURFACE_PHONG && shape.shell == SHELL_NORMAL; }
+
 // (s_01, s_12, s_02).
 vec3 edge_bulges(Triangle tri, real alpha) {
   return vec3(edge_bulge(tri.Position[0], tri.Position[1], tri.Normal[0], tri.Normal[1], alpha),
@@ -99,7 +102,7 @@ vec3 sphere_heights(Triangle tri, vec3 T, vec3 D) {
 // sigma(w).
 real displacement(Shape shape, Triangle tri, vec3 w) {
   if (shape.surface == SURFACE_FLAT) return real(0.0);
-  if (shape.surface == SURFACE_PHONG && shape.shell == SHELL_NORMAL) {
+  if (is_cubic(shape)) {
     vec3 bulge = edge_bulges(tri, shape.alpha);
     return bulge.x * w.x * w.y + bulge.y * w.y * w.z + bulge.z * w.x * w.z;
   }
@@ -168,7 +171,7 @@ Displacement displacement_and_derivatives(Shape shape, Triangle tri, vec3 w) {
   sigma.u = real(0.0);
   sigma.v = real(0.0);
   if (shape.surface == SURFACE_FLAT) return sigma;
-  if (shape.surface == SURFACE_PHONG && shape.shell == SHELL_NORMAL) {
+  if (is_cubic(shape)) {
     return bulged(edge_bulges(tri, shape.alpha), w);
   }
   vec3 P0 = vec3(tri.Position[0]);

@@ -11,14 +11,13 @@
 layout(local_size_x = TILE_SIZE * TILE_SIZE) in;
 
 #include "frame_buffers.glsl"
-layout(std430, binding = BINDING_COLOR) writeonly restrict buffer ColorBlock { vec4 colors[]; };
-layout(std430, binding = BINDING_AOVS) writeonly restrict buffer AovsBlock { PixelAovs pixels[]; };
 layout(std430, binding = BINDING_VIEW_PARTS) readonly restrict buffer ViewPartsBlock { vec4 view_words[]; };
 
 #include "tile_parts.glsl"
 #include "trace.glsl"
+#include "write_pixel.glsl"
 #include "queue.glsl"
-#include "view_part.glsl"
+#include "may_see.glsl"
 
 layout(std430, binding = BINDING_TILE_ORDER) readonly restrict buffer TileOrderBlock { uint tile_order[]; };
 
@@ -99,7 +98,7 @@ void meet(uint part, PixelRay ray, vec2 position, INOUT(Walk) walk, INOUT(bool) 
 
 void main() {
   uint tile = tile_order[push.first_group + gl_WorkGroupID.x];
-  uint columns = (params.width + TILE_SIZE - 1u) / TILE_SIZE;
+  uint columns = tiles_across(params.width);
   // Invocations next to each other see blocks of 4 x 2 pixels, then 8 x 2, 8 x 4.
   uint i = gl_LocalInvocationIndex;
   uvec2 in_tile = uvec2((i & 3u) | ((i >> 1) & 4u), ((i >> 2) & 1u) | ((i >> 3) & 6u));
@@ -134,13 +133,8 @@ void main() {
   if (pixel.x >= params.width || pixel.y >= params.height) return;
   if (undecided) {
     // From the first part of the list on.
-    pause(push.queue.to + atomicAdd(queued, 1u), pixel.y * params.width + pixel.x, walk);
+    enqueue(pixel.y * params.width + pixel.x, walk);
     return;
   }
-  precise vec4 color;
-  precise PixelAovs aovs;
-  finish_pixel(ray, walk, color, aovs);
-  uint index = (pixel.y - push.first_row) * params.width + pixel.x;
-  colors[index] = color;
-  if (AOVS) pixels[index] = aovs;
+  write_pixel(pixel, ray, walk);
 }

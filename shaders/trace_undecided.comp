@@ -8,10 +8,8 @@
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 
 #include "frame_buffers.glsl"
-layout(std430, binding = BINDING_COLOR) writeonly restrict buffer ColorBlock { vec4 colors[]; };
-layout(std430, binding = BINDING_AOVS) writeonly restrict buffer AovsBlock { PixelAovs pixels[]; };
-
 #include "tile_parts.glsl"
 #include "trace.glsl"
+#include "write_pixel.glsl"
 #include "queue.glsl"
 #include "trace_walks.glsl"

@@ -1,15 +1,15 @@
 // A kernel that traces walks: new ones, a pixel to an invocation, or what is left of paused ones.
 
-// Tiles in a row of the image.
-uint columns() { return (params.width + TILE_SIZE - 1u) / TILE_SIZE; }
-
 // The tile of its band in which a pixel lies.
-uint tile_of(uvec2 pixel) { return (pixel.y - push.first_row) / TILE_SIZE * columns() + pixel.x / TILE_SIZE; }
+uint tile_of(uvec2 pixel) {
+  return (pixel.y - push.first_row) / TILE_SIZE * tiles_across(params.width) + pixel.x / TILE_SIZE;
+}
 
 // The pixel of an invocation that begins one; outside of the image, if the image ends before its workgroup does.
 uvec2 new_pixel() {
   uint group = push.first_group + gl_WorkGroupID.x;
-  return uvec2(group % columns(), group / columns()) * TILE_SIZE + gl_LocalInvocationID.xy;
+  uint columns = tiles_across(params.width);
+  return uvec2(group % columns, group / columns) * TILE_SIZE + gl_LocalInvocationID.xy;
 }
 
 void main() {
@@ -30,13 +30,8 @@ void main() {
   ray.tile = tile_of(pixel);
   go_on(ray, push.queue.pass, walk);
   if (!is_through(ray, walk)) {
-    pause(push.queue.to + atomicAdd(queued, 1u), pixel.y * params.width + pixel.x, walk);
+    enqueue(pixel.y * params.width + pixel.x, walk);
     return;
   }
-  precise vec4 color;
-  precise PixelAovs aovs;
-  finish_pixel(ray, walk, color, aovs);
-  uint index = (pixel.y - push.first_row) * params.width + pixel.x;
-  colors[index] = color;
-  if (AOVS) pixels[index] = aovs;
+  write_pixel(pixel, ray, walk);
 }

@@ -14,12 +14,6 @@ namespace {
 
 class Tiles : public test::GpuTest {};
 
-BakedScene caged(const Mesh& mesh, const SurfaceChoice& choice) {
-  BakedScene scene = bake(mesh, choice);
-  scene.cages = bake_cages(scene);
-  return scene;
-}
-
 Frame trace(const BakedScene& scene, const TraceSettings& settings, Accel accel,
             std::size_t buffer_limit = std::numeric_limits<std::size_t>::max()) {
   VulkanTracer tracer(test::validated_device(), scene, settings.width, settings.height,
@@ -66,7 +60,7 @@ TEST_F(Tiles, AreTheListToTheBit) {
       if (choice.surface == SURFACE_SPHERE && name == "teapot") continue;
       const bool usual = choice.surface == SURFACE_PHONG && choice.shell == SHELL_NORMAL;
       if (!usual && name != "sphere-20" && name != "cube") continue;
-      const BakedScene scene = caged(mesh, choice);
+      const BakedScene scene = bake_with_cages(mesh, choice);
       const TraceSettings settings = small(mesh, scene);
       expect_equal(trace(scene, settings, Accel::list), trace(scene, settings, Accel::tiles),
                    name + " " + std::to_string(choice.surface) + std::to_string(choice.shell));
@@ -76,7 +70,7 @@ TEST_F(Tiles, AreTheListToTheBit) {
 
 TEST_F(Tiles, SeeWhatIsAroundAndBehindTheEye) {
   const Mesh mesh = test::load_asset("torus");
-  const BakedScene scene = caged(mesh, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
+  const BakedScene scene = bake_with_cages(mesh, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
   TraceSettings settings = small(mesh, scene);
   for (const double fov : {45.0, 170.0}) {
     settings.camera.fov = fov;
@@ -94,7 +88,7 @@ TEST_F(Tiles, SeeWhatIsAroundAndBehindTheEye) {
 
 TEST_F(Tiles, ThatMorePartsTouchThanTheirListsHoldGoThroughAll) {
   const Mesh mesh = hard::sphere(4);
-  const BakedScene scene = caged(mesh, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
+  const BakedScene scene = bake_with_cages(mesh, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
   // The whole model in a few tiles.
   TraceSettings settings = test::framed(mesh, scene, 40, 24, 10);
   settings.solver = SOLVER_ROBUST;
@@ -104,7 +98,7 @@ TEST_F(Tiles, ThatMorePartsTouchThanTheirListsHoldGoThroughAll) {
 
 TEST_F(Tiles, AreMadeForEveryBandOfAnImage) {
   const Mesh mesh = test::load_asset("sphere-80");
-  const BakedScene scene = caged(mesh, {SURFACE_FLAT, 0.0, SHELL_NORMAL});
+  const BakedScene scene = bake_with_cages(mesh, {SURFACE_FLAT, 0.0, SHELL_NORMAL});
   const TraceSettings settings = small(mesh, scene);
   // Eight rows of 67 pixels of 48 bytes: seven bands.
   constexpr std::size_t limit = 26000;

@@ -29,9 +29,7 @@ Frame trace_by_opengl(const BakedScene& scene, const TraceSettings& settings, Gl
 }
 
 BakedScene baked(const Mesh& mesh, const SurfaceChoice& choice, uint solver) {
-  BakedScene scene = bake(mesh, choice);
-  if (solver == SOLVER_ROBUST) scene.cages = bake_cages(scene);
-  return scene;
+  return solver == SOLVER_ROBUST ? bake_with_cages(mesh, choice) : bake(mesh, choice);
 }
 
 struct Combination {

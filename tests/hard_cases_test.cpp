@@ -56,8 +56,9 @@ struct Judged {
   std::vector<OracleAnswer> answers;
   std::vector<CastHit> hits;
 
-  Judged() : scene(bake(hard::plain_patch({dvec3(0, 0, 1), dvec3(0, 0, 1), dvec3(0, 0, 1)}), {})) {
-    scene.cages = bake_cages(scene);
+  Judged()
+      : scene(bake_with_cages(hard::plain_patch({dvec3(0, 0, 1), dvec3(0, 0, 1), dvec3(0, 0, 1)}),
+                              {})) {
     for (const double x : {-0.2, 0.1, 0.2, 3.0}) {
       rays.push_back(hard::ray_exactly_through(scene, {x, -0.2, 0.0}, {0.1, 0.2, -1.0}));
     }

@@ -53,11 +53,17 @@ const spirv_cross::Resource& with_binding(
   throw std::runtime_error("no resource with binding " + std::to_string(binding));
 }
 
-TEST(Layout, TriangleIsTheThesissIn192Bytes) {
-  const Compiler compiler = reflect();
+// What a kernel has bound there.
+Held bound_to(uint32_t binding, std::span<const uint32_t> spirv = kTraceListSpirv) {
+  const Compiler compiler = reflect(spirv);
   const auto resources = compiler.get_shader_resources();
-  const Held held =
-      held_by(compiler, with_binding(compiler, resources.storage_buffers, BINDING_TRIANGLES));
+  const auto& buffers =
+      binding == BINDING_PARAMS ? resources.uniform_buffers : resources.storage_buffers;
+  return held_by(compiler, with_binding(compiler, buffers, binding));
+}
+
+TEST(Layout, TriangleIsTheThesissIn192Bytes) {
+  const Held held = bound_to(BINDING_TRIANGLES);
   EXPECT_EQ(held.stride, sizeof(Triangle));
   EXPECT_EQ(held.offsets, (Offsets{{"Position", offsetof(Triangle, Position)},
                                    {"Normal", offsetof(Triangle, Normal)},
@@ -68,10 +74,7 @@ TEST(Layout, TriangleIsTheThesissIn192Bytes) {
 }
 
 TEST(Layout, Cage) {
-  const Compiler compiler = reflect();
-  const auto resources = compiler.get_shader_resources();
-  const Held held =
-      held_by(compiler, with_binding(compiler, resources.storage_buffers, BINDING_CAGES));
+  const Held held = bound_to(BINDING_CAGES);
   EXPECT_EQ(held.stride, sizeof(Cage));
   EXPECT_EQ(held.offsets, (Offsets{{"ball", offsetof(Cage, ball)},
                                    {"node", offsetof(Cage, node)},
@@ -85,10 +88,7 @@ TEST(Layout, Cage) {
 }
 
 TEST(Layout, ViewPart) {
-  const Compiler compiler = reflect(kViewPartsSpirv);
-  const auto resources = compiler.get_shader_resources();
-  const Held held =
-      held_by(compiler, with_binding(compiler, resources.storage_buffers, BINDING_VIEW_PARTS));
+  const Held held = bound_to(BINDING_VIEW_PARTS, kViewPartsSpirv);
   EXPECT_EQ(held.stride, sizeof(ViewPart));
   EXPECT_EQ(held.offsets, (Offsets{{"box", offsetof(ViewPart, box)},
                                    {"lines_x", offsetof(ViewPart, lines_x)},
@@ -105,10 +105,7 @@ TEST(Layout, ViewPart) {
 }
 
 TEST(Layout, TraceParams) {
-  const Compiler compiler = reflect();
-  const auto resources = compiler.get_shader_resources();
-  const Held held =
-      held_by(compiler, with_binding(compiler, resources.uniform_buffers, BINDING_PARAMS));
+  const Held held = bound_to(BINDING_PARAMS);
   EXPECT_EQ(held.stride, sizeof(TraceParams));
   EXPECT_EQ(held.offsets, (Offsets{{"eye", offsetof(TraceParams, eye)},
                                    {"ray_corner", offsetof(TraceParams, ray_corner)},
@@ -131,10 +128,7 @@ TEST(Layout, TraceParams) {
 }
 
 TEST(Layout, PausedRay) {
-  const Compiler compiler = reflect();
-  const auto resources = compiler.get_shader_resources();
-  const Held held =
-      held_by(compiler, with_binding(compiler, resources.storage_buffers, BINDING_QUEUE));
+  const Held held = bound_to(BINDING_QUEUE);
   EXPECT_EQ(held.stride, sizeof(PausedRay));
   EXPECT_EQ(held.offsets, (Offsets{
                               {"hit", offsetof(PausedRay, hit)},
@@ -150,13 +144,8 @@ TEST(Layout, PausedRay) {
 }
 
 TEST(Layout, OutputsAndPushConstants) {
-  const Compiler compiler = reflect();
-  const auto resources = compiler.get_shader_resources();
-  EXPECT_EQ(
-      held_by(compiler, with_binding(compiler, resources.storage_buffers, BINDING_COLOR)).stride,
-      sizeof(vec4));
-  const Held aovs =
-      held_by(compiler, with_binding(compiler, resources.storage_buffers, BINDING_AOVS));
+  EXPECT_EQ(bound_to(BINDING_COLOR).stride, sizeof(vec4));
+  const Held aovs = bound_to(BINDING_AOVS);
   EXPECT_EQ(aovs.stride, sizeof(PixelAovs));
   EXPECT_EQ(aovs.offsets, (Offsets{{"normal_z", offsetof(PixelAovs, normal_z)},
                                    {"geometric_u", offsetof(PixelAovs, geometric_u)},
@@ -164,6 +153,8 @@ TEST(Layout, OutputsAndPushConstants) {
                                    {"triangle", offsetof(PixelAovs, triangle)},
                                    {"evaluations", offsetof(PixelAovs, evaluations)},
                                    {"candidates", offsetof(PixelAovs, candidates)}}));
+  const Compiler compiler = reflect();
+  const auto resources = compiler.get_shader_resources();
   ASSERT_EQ(resources.push_constant_buffers.size(), 1U);
   const Held push = held_by(compiler, resources.push_constant_buffers[0]);
   EXPECT_EQ(push.stride, sizeof(TilePush));

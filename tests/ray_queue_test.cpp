@@ -25,8 +25,7 @@ std::vector<CastHit> cast(const BakedScene& scene, const TraceSettings& settings
 TEST_F(Queue, PausesLoseNothing) {
   // Patches that are divided deep (nodes are paused in), groups of cages that are skipped.
   const Mesh mesh = test::load_asset("sphere-20");
-  BakedScene scene = bake(mesh, {SURFACE_PHONG, 0.65, SHELL_HEIGHT});
-  scene.cages = bake_cages(scene);
+  const BakedScene scene = bake_with_cages(mesh, {SURFACE_PHONG, 0.65, SHELL_HEIGHT});
   ASSERT_TRUE(has_groups(scene));
   TraceSettings settings = test::framed(mesh, scene, 8, 8, 10);
   settings.solver = SOLVER_ROBUST;

@@ -4,16 +4,9 @@
 #include <cmath>
 
 #include "app/quantiles.h"
+#include "app/raise.h"
 
 namespace trisect::test {
-namespace {
-
-// The larger one; a NaN is larger than anything.
-void raise(double& largest, double value) {
-  if (!std::isnan(largest) && !(value <= largest)) largest = value;
-}
-
-}  // namespace
 
 FrameDifference difference(const Frame& a, const Frame& b) {
   FrameDifference result;

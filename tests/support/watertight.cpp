@@ -82,8 +82,7 @@ class Aim {
 }  // namespace
 
 Leaks count_leaks(const std::string& asset, uint32_t surface, std::size_t count, uint64_t seed) {
-  BakedScene scene = bake(load_asset(asset), {surface, 0.65, SHELL_NORMAL});
-  scene.cages = bake_cages(scene);
+  const BakedScene scene = bake_with_cages(load_asset(asset), {surface, 0.65, SHELL_NORMAL});
   const Oracle oracle(scene);
   RayCaster caster(validated_device(), scene, make_params(scene, {}), SOLVER_ROBUST);
   Aim aim(scene, seed);

@@ -1,0 +1,13 @@
+// The largest of several numbers, of which some may not be numbers.
+#pragma once
+
+#include <cmath>
+
+namespace trisect {
+
+// The larger one; a NaN is larger than anything.
+inline void raise(double& most, double value) {
+  if (!std::isnan(most) && !(value <= most)) most = value;
+}
+
+}  // namespace trisect

@@ -1,0 +1,14 @@
+# For scripts that measure; sourced. They set `work`, a folder of their own.
+
+# measure DRIVER MODEL RUNS OPTIONS...: renders at 800x600, leaving the figures for figure(). DRIVER is `stock` or
+# `newer`, the one that unpack-mesa.sh unpacks.
+measure() {
+  local driver=$1 model=$2 runs=$3 environment=()
+  shift 3
+  if [ "$driver" = newer ]; then read -ra environment < <(scripts/unpack-mesa.sh); fi
+  env "${environment[@]}" build/release/trisect render "assets/$model.obj" --runs "$runs" -o "$work/a.png" \
+    --stats "$work/a.json" "$@" >/dev/null
+}
+
+# figure PATH: a figure of the last measurement, such as .hits or .gpu_ms.median.
+figure() { jq -r "$1" "$work/a.json"; }
