@@ -13,16 +13,25 @@ constexpr std::size_t kMostParts = (std::size_t{128} << 20U) / sizeof(ViewPart);
 }  // namespace
 
 const char* accel_name(Accel accel) {
-  return accel == Accel::list ? "list" : "tiles";
+  switch (accel) {
+    case Accel::tiles:
+      return "tiles";
+    case Accel::bvh:
+      return "bvh";
+    default:
+      return "list";
+  }
 }
 
 Accel chosen_accel(const RenderOptions& options, Backend backend, std::size_t parts) {
-  const bool tiles = backend == Backend::vulkan && options.solver == SOLVER_ROBUST;
-  if (!options.accel) return tiles && parts <= kMostParts ? Accel::tiles : Accel::list;
-  if (*options.accel == Accel::tiles && !tiles) {
-    throw UsageError("--accel tiles: it needs --backend vulkan and --solver robust.");
+  const bool any = backend == Backend::vulkan && options.solver == SOLVER_ROBUST;
+  const bool tiles = parts <= kMostParts;
+  if (!options.accel) return any ? (tiles ? Accel::tiles : Accel::bvh) : Accel::list;
+  if (*options.accel != Accel::list && !any) {
+    throw UsageError(fmt::format("--accel {}: it needs --backend vulkan and --solver robust.",
+                                 accel_name(*options.accel)));
   }
-  if (*options.accel == Accel::tiles && parts > kMostParts) {
+  if (*options.accel == Accel::tiles && !tiles) {
     throw UsageError(
         fmt::format("--accel tiles: the patches have {} parts, more than the {} that it takes.",
                     parts, kMostParts));

@@ -11,7 +11,7 @@ namespace trisect {
 const char* accel_name(Accel accel);
 
 // What the options ask for, or, if they leave it open, the fastest one that there is for a scene of
-// so many parts: tiles wherever they can be had. Throws UsageError if what is asked for cannot be.
+// so many parts: tiles, or else the tree, wherever they can be had. Throws UsageError if what is asked for cannot be.
 Accel chosen_accel(const RenderOptions& options, Backend backend, std::size_t parts);
 
 }  // namespace trisect

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "app/error.h"
+#include "app/parallel_rows.h"
 #include "app/patch_bounds.h"
 
 namespace trisect {
@@ -89,16 +90,21 @@ BakedScene bake(const Mesh& mesh, const SurfaceChoice& choice) {
         "the model spans {:g} units; single precision needs it between {:g} and {:g}: scale it.",
         2.0 * scene.extent, smallest, largest));
   }
-  scene.triangles.reserve(mesh.triangles.size());
-  for (const MeshTriangle& t : mesh.triangles) {
-    std::array<dvec3, 3> positions{};
-    std::array<dvec3, 3> normals{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      positions[i] = mesh.positions[t.vertex[i]] - scene.origin;
-      normals[i] = mesh.normals[t.normal[i]];
+  scene.triangles.resize(mesh.triangles.size());
+  parallel_chunks(mesh.triangles.size(), [&](std::size_t first, std::size_t end) {
+    for (std::size_t k = first; k < end; ++k) {
+      const MeshTriangle& t = mesh.triangles[k];
+      std::array<dvec3, 3> positions{};
+      std::array<dvec3, 3> normals{};
+      for (std::size_t i = 0; i < 3; ++i) {
+        positions[i] = mesh.positions[t.vertex[i]] - scene.origin;
+        normals[i] = mesh.normals[t.normal[i]];
+      }
+      scene.triangles[k] = bake_triangle(positions, normals, choice);
     }
-    scene.triangles.push_back(bake_triangle(positions, normals, choice));
-    const vec4& domain = scene.triangles.back().Domain;
+  });
+  for (const Triangle& tri : scene.triangles) {
+    const vec4& domain = tri.Domain;
     scene.radius =
         std::max(scene.radius, glm::length(dvec3(domain)) + static_cast<double>(domain.w));
   }

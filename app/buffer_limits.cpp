@@ -7,6 +7,20 @@
 #include "vk/result.h"
 
 namespace trisect {
+namespace {
+
+template <typename T>
+std::size_t bytes_of(const std::string& device, std::size_t limit, const std::vector<T>& items,
+                     const char* take) {
+  const std::size_t bytes = std::max<std::size_t>(items.size(), 1) * sizeof(T);
+  if (bytes > limit) {
+    throw gpu::Error(fmt::format("device {} has storage buffers of at most {} bytes; {} {}.",
+                                 device, limit, take, bytes));
+  }
+  return bytes;
+}
+
+}  // namespace
 
 std::size_t triangle_bytes(const std::string& device, std::size_t limit, const BakedScene& scene) {
   const std::size_t bytes = scene.triangles.size() * sizeof(Triangle);
@@ -20,14 +34,11 @@ std::size_t triangle_bytes(const std::string& device, std::size_t limit, const B
 }
 
 std::size_t cage_bytes(const std::string& device, std::size_t limit, const BakedScene& scene) {
-  const std::size_t bytes = std::max<std::size_t>(scene.cages.size(), 1) * sizeof(Cage);
-  if (bytes > limit) {
-    throw gpu::Error(
-        fmt::format("device {} has storage buffers of at most {} bytes; the bounds of the model's "
-                    "patches take {}.",
-                    device, limit, bytes));
-  }
-  return bytes;
+  return bytes_of(device, limit, scene.cages, "the bounds of the model's patches take");
+}
+
+std::size_t bvh_bytes(const std::string& device, std::size_t limit, const BakedScene& scene) {
+  return bytes_of(device, limit, scene.bvh, "the tree over the model's patches takes");
 }
 
 uint32_t rows_in_a_band(const std::string& device, std::size_t limit, uint32_t width,

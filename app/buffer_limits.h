@@ -16,6 +16,9 @@ std::size_t triangle_bytes(const std::string& device, std::size_t limit, const B
 // Of one cage at least: a binding wants a buffer, also if no solver reads it.
 std::size_t cage_bytes(const std::string& device, std::size_t limit, const BakedScene& scene);
 
+// Of one entry at least, likewise.
+std::size_t bvh_bytes(const std::string& device, std::size_t limit, const BakedScene& scene);
+
 // Rows of the image that the output buffers hold at a time: all of them if buffers of so many bytes
 // allow, else a whole number of workgroups.
 uint32_t rows_in_a_band(const std::string& device, std::size_t limit, uint32_t width,

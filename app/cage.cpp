@@ -5,8 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "app/cage_net.h"
 #include "app/enclosing_ball.h"
 #include "app/kernel_float.h"
+#include "app/parallel_rows.h"
 #include "app/raise.h"
 #include "app/surface_double.h"
 #include "app/widen.h"
@@ -34,34 +36,12 @@ const vec4 kNoCone(0.0F, 0.0F, 0.0F, NO_CONE);
 constexpr int kSamples = 12;
 constexpr double kBetweenSamples = 1.5;
 
-// A sub-triangle: w = origin + size l.
-struct Part {
-  dvec3 origin{0.0};
-  double size = 1.0;
-};
-
-// Bernstein coefficients of a quadratic in the weights of the whole triangle.
-struct Quadratic {
-  dvec3 corner{0.0};
-  dvec3 edge{0.0};  // 01, 12, 02
-
-  [[nodiscard]] double blossom(const dvec3& a, const dvec3& b) const {
-    return glm::dot(corner, a * b) + edge.x * (a.x * b.y + a.y * b.x) +
-           edge.y * (a.y * b.z + a.z * b.y) + edge.z * (a.x * b.z + a.z * b.x);
-  }
-};
-
 struct Patch {
   in_double::Shape shape;
   in_double::Triangle tri;
-  std::array<dvec3, 3> P;
-  std::array<dvec3, 3> D;
+  Corners corners;
   glm::vec3 bulges;  // the kernels' edge_bulges
 };
-
-// Control points b300, b030, b003, b210, b120, b021, b012, b102, b201, b111 of a cubic Bezier
-// triangle; b_ijk belongs to w_0^i w_1^j w_2^k.
-using Net = std::array<dvec3, 10>;
 
 struct Fit {
   Quadratic q;
@@ -71,40 +51,25 @@ struct Fit {
 };
 
 Patch patch_of(const SurfaceChoice& choice, const Triangle& single, in_float::Kernel& kernel) {
-  Patch patch{shape_of(choice),
-              widen(single),
-              {},
-              {},
-              kernel.edge_bulges(single, static_cast<float>(choice.alpha))};
-  for (int i = 0; i < 3; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    patch.P[k] = dvec3(patch.tri.Position[i]);
-    patch.D[k] =
-        in_double::corner_direction(choice.shell, patch.tri.Normal[i], patch.tri.NormDot[i]);
-  }
-  return patch;
-}
-
-dvec3 corner(int k) {
-  dvec3 e(0.0);
-  e[k] = 1.0;
-  return e;
+  const in_double::Triangle tri = widen(single);
+  return {shape_of(choice), tri, corners_of(tri, choice.shell),
+          kernel.edge_bulges(single, static_cast<float>(choice.alpha))};
 }
 
 // The quadratic with these values at the part's corners and at the middles of its edges.
 template <typename Value>
-Quadratic through(const Part& part, Value&& value) {
+Quadratic through(const SubTriangle& part, Value&& value) {
   const auto at = [&](const dvec3& l) { return value(part.origin + l * part.size); };
   Quadratic local;
-  for (int k = 0; k < 3; ++k) local.corner[k] = at(corner(k));
+  for (int k = 0; k < 3; ++k) local.corner[k] = at(corner_weights(k));
   for (int k = 0; k < 3; ++k) {
     const int i = k == 2 ? 0 : k;
     const int j = k == 2 ? 2 : k + 1;
-    local.edge[k] =
-        2.0 * at((corner(i) + corner(j)) * 0.5) - (local.corner[i] + local.corner[j]) * 0.5;
+    local.edge[k] = 2.0 * at((corner_weights(i) + corner_weights(j)) * 0.5) -
+                    (local.corner[i] + local.corner[j]) * 0.5;
   }
   // In the weights of the whole: the blossom does not mind that the corners lie outside the part.
-  const auto inside = [&](int k) { return (corner(k) - part.origin) / part.size; };
+  const auto inside = [&](int k) { return (corner_weights(k) - part.origin) / part.size; };
   Quadratic whole;
   for (int k = 0; k < 3; ++k) whole.corner[k] = local.blossom(inside(k), inside(k));
   whole.edge = {local.blossom(inside(0), inside(1)), local.blossom(inside(1), inside(2)),
@@ -113,7 +78,8 @@ Quadratic through(const Part& part, Value&& value) {
 }
 
 double longest_direction(const Patch& patch) {
-  return std::max({glm::length(patch.D[0]), glm::length(patch.D[1]), glm::length(patch.D[2])});
+  return std::max({glm::length(patch.corners.D[0]), glm::length(patch.corners.D[1]),
+                   glm::length(patch.corners.D[2])});
 }
 
 // sigma - q and its gradient.
@@ -132,7 +98,7 @@ Sample sample(const Patch& patch, const Quadratic& q, const dvec3& w) {
            sigma.v - 2.0 * q.blossom(w, {-1.0, 0.0, 1.0})}};
 }
 
-std::vector<Sample> samples_of(const Patch& patch, const Part& part, const Quadratic& q) {
+std::vector<Sample> samples_of(const Patch& patch, const SubTriangle& part, const Quadratic& q) {
   std::vector<Sample> samples;
   for (int i = 0; i <= kSamples; ++i) {
     for (int j = 0; i + j <= kSamples; ++j) {
@@ -145,12 +111,12 @@ std::vector<Sample> samples_of(const Patch& patch, const Part& part, const Quadr
 
 // Raises `stray` to how far S_u and S_v are from the cage's at the sample.
 void raise_tangent_stray(const Patch& patch, const Sample& a, double& stray) {
-  const dvec3 D = in_double::weigh(a.w, patch.D[0], patch.D[1], patch.D[2]);
-  raise(stray, glm::length(D * a.gradient.x + (patch.D[1] - patch.D[0]) * a.e));
-  raise(stray, glm::length(D * a.gradient.y + (patch.D[2] - patch.D[0]) * a.e));
+  const dvec3 D = in_double::weigh(a.w, patch.corners.D[0], patch.corners.D[1], patch.corners.D[2]);
+  raise(stray, glm::length(D * a.gradient.x + (patch.corners.D[1] - patch.corners.D[0]) * a.e));
+  raise(stray, glm::length(D * a.gradient.y + (patch.corners.D[2] - patch.corners.D[0]) * a.e));
 }
 
-Fit fit(const Patch& patch, const Part& part) {
+Fit fit(const Patch& patch, const SubTriangle& part) {
   const bool cubic = in_double::is_cubic(patch.shape);
   Fit fit;
   // Of a cubic patch as the kernels have it from the triangle, to the bit.
@@ -170,7 +136,8 @@ Fit fit(const Patch& patch, const Part& part) {
   }
   const std::vector<Sample> samples = samples_of(patch, part, fit.q);
   for (const Sample& a : samples) {
-    const dvec3 D = in_double::weigh(a.w, patch.D[0], patch.D[1], patch.D[2]);
+    const dvec3 D =
+        in_double::weigh(a.w, patch.corners.D[0], patch.corners.D[1], patch.corners.D[2]);
     raise(fit.stray, glm::length(D) * std::abs(a.e));
     raise_tangent_stray(patch, a, fit.tangent_stray);
     for (const Sample& b : samples) {
@@ -195,35 +162,10 @@ float rounded_up(double x) {
   return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
 }
 
-// The part with so much of its size around it on every side.
-Part enlarged(const Part& part, double margin) {
-  return {part.origin - dvec3(margin * part.size), part.size * (1.0 + 3.0 * margin)};
-}
-
-// The cubic Bezier triangle T + q D over a part.
-Net net_of(const Patch& patch, const Part& part, const Quadratic& q) {
-  std::array<dvec3, 3> w{};
-  std::array<dvec3, 3> T{};
-  std::array<dvec3, 3> D{};
-  for (int k = 0; k < 3; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    w[i] = part.origin + corner(k) * part.size;
-    T[i] = in_double::weigh(w[i], patch.P[0], patch.P[1], patch.P[2]);
-    D[i] = in_double::weigh(w[i], patch.D[0], patch.D[1], patch.D[2]);
-  }
-  const auto at = [&](std::size_t a, std::size_t b, std::size_t c) {
-    const dvec3 lifted =
-        D[a] * q.blossom(w[b], w[c]) + D[b] * q.blossom(w[c], w[a]) + D[c] * q.blossom(w[a], w[b]);
-    return (T[a] + T[b] + T[c] + lifted) / 3.0;
-  };
-  return {at(0, 0, 0), at(1, 1, 1), at(2, 2, 2), at(0, 0, 1), at(0, 1, 1),
-          at(1, 1, 2), at(1, 2, 2), at(0, 2, 2), at(0, 0, 2), at(0, 1, 2)};
-}
-
 // The ball around a part, its overlap with the next ones included.
-Ball part_ball(const Patch& patch, const Part& part, const Fit& fit) {
+Ball part_ball(const Patch& patch, const SubTriangle& part, const Fit& fit) {
   std::vector<Ball> points;
-  for (const dvec3& point : net_of(patch, enlarged(part, OVERLAP), fit.q)) {
+  for (const dvec3& point : net_of(patch.corners, enlarged(part, OVERLAP), fit.q)) {
     points.push_back({point, fit.stray});
   }
   Ball ball = enclosing_ball(points);
@@ -239,7 +181,7 @@ double norm_of(const glm::dmat2& m) {
 }
 
 // How far S_u and S_v stray over an enlarged part from those of its cage.
-double tangents_stray(const Patch& patch, const Part& part, const Fit& fit) {
+double tangents_stray(const Patch& patch, const SubTriangle& part, const Fit& fit) {
   if (fit.bend == 0.0) return fit.tangent_stray;
   double most = 0.0;
   for (const Sample& a : samples_of(patch, part, fit.q)) raise_tangent_stray(patch, a, most);
@@ -251,9 +193,9 @@ double tangents_stray(const Patch& patch, const Part& part, const Fit& fit) {
 // Seen along a direction d, on the tangent plane with normal n and mean tangents M0, that mean is
 // M0 (1 + E - t g^T), t the tangent of the angle between d and n, E and g those of (u_i, v_i): it
 // is one to one if |E| + t |g| < 1 for all i.
-vec4 normal_cone(const Patch& patch, const Part& part, const Fit& fit) {
-  const Part large = enlarged(part, CONE_MARGIN);
-  const Net b = net_of(patch, large, fit.q);
+vec4 normal_cone(const Patch& patch, const SubTriangle& part, const Fit& fit) {
+  const SubTriangle large = enlarged(part, CONE_MARGIN);
+  const ControlNet b = net_of(patch.corners, large, fit.q);
   const std::array<dvec3, 6> u{b[3] - b[0], b[1] - b[4], b[6] - b[7],
                                b[4] - b[3], b[9] - b[8], b[5] - b[9]};
   const std::array<dvec3, 6> v{b[8] - b[0], b[5] - b[4], b[2] - b[7],
@@ -290,7 +232,7 @@ vec4 normal_cone(const Patch& patch, const Part& part, const Fit& fit) {
   return {glm::vec3(n), static_cast<float>(flattest / std::hypot(flattest, 1.0) + rounding)};
 }
 
-Cage cage_of(const Patch& patch, const Part& part, const Fit& fit, uint32_t triangle) {
+Cage cage_of(const Patch& patch, const SubTriangle& part, const Fit& fit, uint32_t triangle) {
   Cage cage{};
   // Where the quadratic is no bound at all the whole patch's ball is one.
   if (part.size == 1.0 || !(fit.stray < patch.tri.Domain.w)) {
@@ -315,7 +257,7 @@ Cage cage_of(const Patch& patch, const Part& part, const Fit& fit, uint32_t tria
   return cage;
 }
 
-void cage_part(const Patch& patch, const Part& part, int level, uint32_t triangle,
+void cage_part(const Patch& patch, const SubTriangle& part, int level, uint32_t triangle,
                std::vector<Cage>& cages) {
   const Fit found = fit(patch, part);
   const double size = patch.tri.TriNormal.w * std::abs(part.size);
@@ -329,7 +271,7 @@ void cage_part(const Patch& patch, const Part& part, int level, uint32_t triangl
   }
   const double half = part.size * 0.5;
   for (int k = 0; k < 3; ++k) {
-    cage_part(patch, {part.origin + corner(k) * half, half}, level + 1, triangle, cages);
+    cage_part(patch, {part.origin + corner_weights(k) * half, half}, level + 1, triangle, cages);
   }
   cage_part(patch, {part.origin + dvec3(half), -half}, level + 1, triangle, cages);
   cages[index].skip = static_cast<uint32_t>(cages.size() - index - 1);
@@ -343,13 +285,20 @@ bool has_groups(const BakedScene& scene) {
 }
 
 std::vector<Cage> bake_cages(const BakedScene& scene) {
+  std::vector<std::vector<Cage>> chunks(scene.triangles.size() / kChunk + 1);
+  parallel_chunks(scene.triangles.size(), [&](std::size_t first, std::size_t end) {
+    std::vector<Cage>& cages = chunks[first / kChunk];
+    cages.reserve(end - first);
+    const TraceParams no_frame{};
+    in_float::Kernel kernel = in_float::kernel_of(scene, no_frame, {});
+    for (std::size_t t = first; t < end; ++t) {
+      cage_part(patch_of(scene.choice, scene.triangles[t], kernel), {}, 0, static_cast<uint32_t>(t),
+                cages);
+    }
+  });
   std::vector<Cage> cages;
-  cages.reserve(scene.triangles.size());
-  const TraceParams no_frame{};
-  in_float::Kernel kernel = in_float::kernel_of(scene, no_frame, {});
-  for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
-    cage_part(patch_of(scene.choice, scene.triangles[t], kernel), {}, 0, static_cast<uint32_t>(t),
-              cages);
+  for (const std::vector<Cage>& chunk : chunks) {
+    cages.insert(cages.end(), chunk.begin(), chunk.end());
   }
   return cages;
 }

@@ -27,10 +27,11 @@ Tolerance tolerance_between(Backend a, Backend b, GlPath gl_path) {
 int crosscheck(const CrosscheckOptions& options) {
   const RenderOptions& render = options.render;
   ComparisonFiles files(options.json, options.diff);
-  const LoadedScene loaded = load_scene(render);
+  LoadedScene loaded = load_scene(render);
   std::vector<TraceResult> results;
   for (const Backend backend : options.backends) {
     const Accel accel = chosen_accel(render, backend, loaded.scene.cages.size());
+    if (accel == Accel::bvh) add_bvh(loaded);
     results.push_back(trace_scene({backend, render.gl_path, render.device, false, 1, false},
                                   loaded.scene, loaded.params,
                                   {render.solver, true, false, accel}));

@@ -1,6 +1,5 @@
 #include "app/enclosing_ball.h"
 
-#include <algorithm>
 #include <limits>
 
 namespace trisect {
@@ -10,10 +9,19 @@ double reach(const glm::dvec3& center, const Ball& ball) {
   return glm::distance(center, ball.center) + ball.radius;
 }
 
-const Ball& farthest(const glm::dvec3& center, std::span<const Ball> balls) {
-  return *std::max_element(balls.begin(), balls.end(), [&](const Ball& a, const Ball& b) {
-    return reach(center, a) < reach(center, b);
-  });
+// The first of the balls that reach farthest from the centre, and how far.
+struct Farthest {
+  const Ball* ball;
+  double reach;
+};
+
+Farthest farthest(const glm::dvec3& center, std::span<const Ball> balls) {
+  Farthest far{balls.data(), reach(center, balls[0])};
+  for (const Ball& ball : balls.subspan(1)) {
+    const double distance = reach(center, ball);
+    if (distance > far.reach) far = {&ball, distance};
+  }
+  return far;
 }
 
 }  // namespace
@@ -25,8 +33,8 @@ Ball enclosing_ball(std::span<const Ball> balls) {
   // After k steps the excess is at most of the order of 1/k; on the few points here it is far less.
   constexpr int steps = 32;
   for (int k = 1; k <= steps; ++k) {
-    const Ball& far = farthest(center, balls);
-    const double radius = reach(center, far);
+    const auto [ball, radius] = farthest(center, balls);
+    const Ball& far = *ball;
     if (radius < best.radius) best = {center, radius};
     const double distance = glm::distance(center, far.center);
     if (distance == 0.0) break;

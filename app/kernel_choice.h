@@ -9,6 +9,7 @@ namespace trisect {
 enum class Accel {
   list,   // all of them
   tiles,  // those that its tile of the image touches: primary rays, robust solver
+  bvh,    // those in whose boxes it comes: robust solver, needs the scene's bvh
 };
 
 struct KernelChoice {

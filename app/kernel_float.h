@@ -41,11 +41,13 @@ struct Kernel {
 // The order is the kernel's.
 #include "shaders/robust.glsl"
 #include "shaders/shading.glsl"
+#include "shaders/rays.glsl"
 // Here a ray's tile means nothing.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 #include "shaders/every_part.glsl"
 #pragma GCC diagnostic pop
+// The parts, above, are what a ray goes through.
 #include "shaders/trace.glsl"
 // What a camera sees needs its frame, above.
 #include "shaders/view_part.glsl"

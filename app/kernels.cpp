@@ -7,9 +7,13 @@ namespace {
 
 // Written at build time: arrays of SPIR-V words.
 #include "bin_parts.spv.h"
+#include "cast_by_bvh.spv.h"
 #include "cast_rays.spv.h"
 #include "fill_sky.spv.h"
+#include "search_packets.spv.h"
+#include "trace_bvh.spv.h"
 #include "trace_list.spv.h"
+#include "trace_packets.spv.h"
 #include "trace_tiles.spv.h"
 #include "trace_undecided.spv.h"
 #include "view_parts.spv.h"
@@ -26,7 +30,11 @@ const std::span<const uint32_t> kBinPartsSpirv(bin_parts_spirv);
 const std::span<const uint32_t> kFillSkySpirv(fill_sky_spirv);
 const std::span<const uint32_t> kTraceTilesSpirv(trace_tiles_spirv);
 const std::span<const uint32_t> kTraceUndecidedSpirv(trace_undecided_spirv);
+const std::span<const uint32_t> kTracePacketsSpirv(trace_packets_spirv);
+const std::span<const uint32_t> kSearchPacketsSpirv(search_packets_spirv);
+const std::span<const uint32_t> kTraceBvhSpirv(trace_bvh_spirv);
 const std::span<const uint32_t> kCastRaysSpirv(cast_rays_spirv);
+const std::span<const uint32_t> kCastByBvhSpirv(cast_by_bvh_spirv);
 
 const char* const kTraceListComp = trace_list_comp_glsl;
 const char* const kTraceListFrag = trace_list_frag_glsl;
@@ -44,7 +52,8 @@ gpu::KernelInterface frame_interface() {
            {BINDING_TILE_COUNTS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {BINDING_TILE_PARTS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {BINDING_TILE_ORDER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-           {BINDING_TILES_SEEN, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}},
+           {BINDING_TILES_SEEN, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+           {BINDING_BVH, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}},
           sizeof(TilePush)};
 }
 
@@ -55,7 +64,8 @@ gpu::KernelInterface cast_rays_interface() {
            {BINDING_RAYS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {BINDING_HITS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {BINDING_QUEUE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-           {BINDING_QUEUED, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}},
+           {BINDING_QUEUED, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+           {BINDING_BVH, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}},
           sizeof(CastPush)};
 }
 

@@ -15,7 +15,11 @@ extern const std::span<const uint32_t> kBinPartsSpirv;
 extern const std::span<const uint32_t> kFillSkySpirv;
 extern const std::span<const uint32_t> kTraceTilesSpirv;
 extern const std::span<const uint32_t> kTraceUndecidedSpirv;
+extern const std::span<const uint32_t> kTracePacketsSpirv;
+extern const std::span<const uint32_t> kSearchPacketsSpirv;
+extern const std::span<const uint32_t> kTraceBvhSpirv;
 extern const std::span<const uint32_t> kCastRaysSpirv;
+extern const std::span<const uint32_t> kCastByBvhSpirv;
 
 // GLSL for OpenGL, without a version; frame_buffers.glsl says what else goes ahead of it.
 extern const char* const kTraceListComp;

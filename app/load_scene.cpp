@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/bvh.h"
 #include "app/cage.h"
 #include "app/interrupt.h"
 #include "app/mesh_builder.h"
@@ -49,6 +50,12 @@ LoadedScene load_scene(const RenderOptions& options) {
   });
   loaded.params = make_params(loaded.scene, settings_for(options, built.mesh, loaded.scene));
   return loaded;
+}
+
+void add_bvh(LoadedScene& loaded) {
+  double ms = 0.0;
+  loaded.scene.bvh = timed(ms, [&] { return build_bvh(loaded.scene); });
+  loaded.bvh_ms = ms;
 }
 
 }  // namespace trisect

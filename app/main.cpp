@@ -109,10 +109,12 @@ void add_scene(CLI::App* command, RenderOptions& options, RenderText& text) {
       ->check(one_of({"robust", "bisect"}))
       ->type_name("NAME");
   command
-      ->add_option("--accel", text.accel,
-                   "What a ray is tried against: list (every patch, the thesis's), tiles (those "
-                   "that its tile of the image touches; vulkan, robust) or auto, default auto")
-      ->check(one_of({"list", "tiles", "auto"}))
+      ->add_option(
+          "--accel", text.accel,
+          "What a ray is tried against: list (every patch, the thesis's), tiles (those "
+          "that its tile of the image touches), bvh (those that a tree of boxes finds; both "
+          "vulkan, robust) or auto, default auto")
+      ->check(one_of({"list", "tiles", "bvh", "auto"}))
       ->type_name("NAME");
   command
       ->add_option("--preset", text.preset,
@@ -295,6 +297,7 @@ void parse_scene(const RenderText& text, RenderOptions& options) {
   if (text.solver) options.solver = *text.solver == "bisect" ? SOLVER_BISECT : SOLVER_ROBUST;
   if (text.accel == "list") options.accel = Accel::list;
   if (text.accel == "tiles") options.accel = Accel::tiles;
+  if (text.accel == "bvh") options.accel = Accel::bvh;
   if (text.size) parse_size("--size", *text.size, options.width, options.height);
   if (text.eye) options.eye = parse_triple("--eye", *text.eye);
   if (text.target) options.target = parse_triple("--target", *text.target);

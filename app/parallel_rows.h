@@ -1,6 +1,7 @@
-// Rows of an image over all cores.
+// Rows of an image, or chunks of a list, over all cores.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 
@@ -11,5 +12,12 @@ namespace trisect {
 // either throws stops the rest and is thrown here.
 void parallel_rows(uint32_t height, const std::function<void(uint32_t)>& row,
                    const std::function<void(uint32_t)>& progress);
+
+// Calls chunk(first, end) for consecutive ranges of less than `count` items, on as many threads as
+// there are cores. What it throws stops the rest and is thrown here.
+void parallel_chunks(std::size_t count, const std::function<void(std::size_t, std::size_t)>& chunk);
+
+// Items of a chunk.
+constexpr std::size_t kChunk = 4096;
 
 }  // namespace trisect

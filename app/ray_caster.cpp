@@ -23,9 +23,9 @@ std::size_t bytes_for(const std::vector<T>& items) {
 
 std::shared_ptr<const gpu::Kernel> RayCaster::kernel_for(const gpu::Device& device,
                                                          const SurfaceChoice& choice, uint solver,
-                                                         bool groups) {
+                                                         bool groups, bool bvh) {
   return std::make_shared<const gpu::Kernel>(
-      device, kCastRaysSpirv, cast_rays_interface(),
+      device, bvh ? kCastByBvhSpirv : kCastRaysSpirv, cast_rays_interface(),
       std::vector<gpu::Specialization>{{CONSTANT_SURFACE, choice.surface},
                                        {CONSTANT_SHELL, choice.shell},
                                        {CONSTANT_SOLVER, solver},
@@ -35,22 +35,28 @@ std::shared_ptr<const gpu::Kernel> RayCaster::kernel_for(const gpu::Device& devi
 
 RayCaster::RayCaster(const gpu::Device& device, const BakedScene& scene, const TraceParams& params,
                      uint solver, std::shared_ptr<const gpu::Kernel> kernel, uint32_t steps)
-    : kernel_(kernel ? std::move(kernel)
-                     : kernel_for(device, scene.choice, solver, has_groups(scene))),
+    : kernel_(
+          kernel ? std::move(kernel)
+                 : kernel_for(device, scene.choice, solver, has_groups(scene), !scene.bvh.empty())),
       commands_(device),
       staging_(device, kStagingBytes),
       params_(device, sizeof(TraceParams), gpu::Memory::device, "trace parameters"),
       triangles_(device, bytes_for(scene.triangles), gpu::Memory::device, "triangles"),
       cages_(device, bytes_for(scene.cages), gpu::Memory::device, "cages"),
+      bvh_(device, bytes_for(scene.bvh), gpu::Memory::device, "tree"),
       rays_(device, kBatch * sizeof(CastRay), gpu::Memory::device, "rays"),
       hits_(device, kBatch * sizeof(CastHit), gpu::Memory::device, "hits"),
       queue_(device, kBatch, steps),
       bound_(device, *kernel_,
-             {&params_, &triangles_, &cages_, &rays_, &hits_, &queue_.paused(), &queue_.queued()}) {
+             {&params_, &triangles_, &cages_, &rays_, &hits_, &queue_.paused(), &queue_.queued(),
+              &bvh_}) {
   staging_.upload(commands_, std::as_bytes(std::span(&params, 1)), params_);
   staging_.upload(commands_, std::as_bytes(std::span(scene.triangles)), triangles_);
   if (!scene.cages.empty()) {
     staging_.upload(commands_, std::as_bytes(std::span(scene.cages)), cages_);
+  }
+  if (!scene.bvh.empty()) {
+    staging_.upload(commands_, std::as_bytes(std::span(scene.bvh)), bvh_);
   }
 }
 
@@ -66,7 +72,7 @@ std::vector<CastHit> RayCaster::cast(std::span<const CastRay> rays,
           std::min<std::size_t>(budget.groups(), (count - done + CAST_SIZE - 1) / CAST_SIZE));
       const CastPush push{{}, static_cast<uint>(done), static_cast<uint>(count)};
       budget.record(groups,
-                    queue_.run(commands_, *kernel_, *kernel_, bound_, push, groups, CAST_SIZE));
+                    queue_.run(commands_, {kernel_.get(), 1}, bound_, push, groups, CAST_SIZE));
       done += std::size_t{groups} * CAST_SIZE;
       if (progress) progress(first + std::min(done, count));
     }

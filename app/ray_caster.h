@@ -18,14 +18,16 @@ class RayCaster {
   // params: rank, resolution, min_delta, alpha and the counts of triangles and cages; its camera is
   // not used. solver: SOLVER_ROBUST needs the scene's cages. Throws gpu::Error if the device cannot
   // hold the scene.
-  // kernel: one of kernel_for(device, scene.choice, solver, groups) that several scenes share,
-  // `groups` true if has_groups() of any of them; without one the scene's own is compiled.
+  // If the scene has a bvh rays go by it, else through every patch.
+  // kernel: one of kernel_for(device, scene.choice, solver, groups, bvh) that several scenes share,
+  // `groups` true if has_groups() of any of them, `bvh` if all have one; without one the scene's
+  // own is compiled.
   RayCaster(const gpu::Device& device, const BakedScene& scene, const TraceParams& params,
             uint solver, std::shared_ptr<const gpu::Kernel> kernel = nullptr,
             uint32_t steps = RayQueue::kSteps);
   static std::shared_ptr<const gpu::Kernel> kernel_for(const gpu::Device& device,
                                                        const SurfaceChoice& choice, uint solver,
-                                                       bool groups);
+                                                       bool groups, bool bvh);
 
   // One hit for each ray. progress, if set, is told how many rays are done, between submits; what
   // it throws stops the cast.
@@ -39,6 +41,7 @@ class RayCaster {
   gpu::Buffer params_;
   gpu::Buffer triangles_;
   gpu::Buffer cages_;
+  gpu::Buffer bvh_;
   gpu::Buffer rays_;
   gpu::Buffer hits_;
   RayQueue queue_;

@@ -1,5 +1,6 @@
 #include "app/ray_queue.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace trisect {
@@ -11,7 +12,7 @@ RayQueue::RayQueue(const gpu::Device& device, uint32_t rays, uint32_t steps)
               "paused rays"),
       queued_(device, sizeof(uint32_t), gpu::Memory::host, "number of paused rays") {}
 
-double RayQueue::run_all(gpu::Commands& commands, const gpu::Kernel& first, const gpu::Kernel& rest,
+double RayQueue::run_all(gpu::Commands& commands, std::span<const gpu::Kernel> kernels,
                          const gpu::BoundBuffers& bound, uint32_t groups, uint32_t group_rays,
                          const std::function<void()>& between_submits,
                          const PushBytes& push_bytes) {
@@ -25,7 +26,8 @@ double RayQueue::run_all(gpu::Commands& commands, const gpu::Kernel& first, cons
     uint32_t queued = 0;
     std::memcpy(queued_.bytes().data(), &queued, sizeof(queued));
     commands.begin();
-    commands.dispatch(queue.pass == 0 ? first : rest, bound, push_bytes(queue), groups);
+    const std::size_t kernel = std::min<std::size_t>(queue.pass, kernels.size() - 1);
+    commands.dispatch(kernels[kernel], bound, push_bytes(queue), groups);
     gpu_ms += commands.submit_and_wait();
     std::memcpy(&queued, queued_.bytes().data(), sizeof(queued));
     return queued;

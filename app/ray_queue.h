@@ -36,15 +36,15 @@ class RayQueue {
   [[nodiscard]] const gpu::Buffer& paused() const { return paused_; }
   [[nodiscard]] const gpu::Buffer& queued() const { return queued_; }
 
-  // Runs `groups` workgroups of `group_rays` invocations of the kernel `first`, each with a new
-  // ray, then submits what paused to the kernel `rest` until nothing is left. Push: a structure of
+  // Runs `groups` workgroups of `group_rays` invocations of the first kernel, each with a new ray,
+  // then submits what paused to the next one, and to the last until nothing is left. Push: of
   // shared.h with a member `queue`, which is set here. between_submits, if set, is called between
   // any two. Returns milliseconds on the device.
   template <typename Push>
-  double run(gpu::Commands& commands, const gpu::Kernel& first, const gpu::Kernel& rest,
+  double run(gpu::Commands& commands, std::span<const gpu::Kernel> kernels,
              const gpu::BoundBuffers& bound, Push push, uint32_t groups, uint32_t group_rays,
              const std::function<void()>& between_submits = {}) {
-    return run_all(commands, first, rest, bound, groups, group_rays, between_submits,
+    return run_all(commands, kernels, bound, groups, group_rays, between_submits,
                    [&push](const QueuePush& queue) {
                      push.queue = queue;
                      return std::as_bytes(std::span<const Push>(&push, 1));
@@ -56,7 +56,7 @@ class RayQueue {
 
  private:
   using PushBytes = std::function<std::span<const std::byte>(const QueuePush&)>;
-  double run_all(gpu::Commands& commands, const gpu::Kernel& first, const gpu::Kernel& rest,
+  double run_all(gpu::Commands& commands, std::span<const gpu::Kernel> kernels,
                  const gpu::BoundBuffers& bound, uint32_t groups, uint32_t group_rays,
                  const std::function<void()>& between_submits, const PushBytes& push_bytes);
 

@@ -49,9 +49,9 @@ WorkCounts count_work(const Frame& frame) {
 int render(const RenderOptions& options) {
   const ImageFormat format = image_format(options.output);
   expect_distinct(options);
-  const LoadedScene loaded = load_scene(options);
-
+  LoadedScene loaded = load_scene(options);
   const Accel accel = chosen_accel(options, options.backend, loaded.scene.cages.size());
+  if (accel == Accel::bvh) add_bvh(loaded);
 
   AtomicFile image(options.output);
   std::optional<AtomicFile> stats;
@@ -71,6 +71,7 @@ int render(const RenderOptions& options) {
   statistics.frames = traced.frames;
   statistics.load_ms = loaded.load_ms;
   statistics.bake_ms = loaded.bake_ms;
+  statistics.bvh_ms = loaded.bvh_ms;
   statistics.upload_ms = traced.upload_ms;
 
   if (format == ImageFormat::png) {

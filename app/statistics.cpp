@@ -57,6 +57,7 @@ std::string to_json(const RenderOptions& options, const RenderStatistics& statis
   json["wall_ms"] = json_of(spread_over(statistics.frames, &FrameTime::wall_ms));
   json["load_ms"] = statistics.load_ms;
   json["bake_ms"] = statistics.bake_ms;
+  if (statistics.bvh_ms) json["bvh_ms"] = *statistics.bvh_ms;
   json["upload_ms"] = statistics.upload_ms;
   return json_text(json);
 }

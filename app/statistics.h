@@ -38,6 +38,7 @@ struct RenderStatistics {
   std::vector<FrameTime> frames;     // the counted runs
   double load_ms = 0.0;
   double bake_ms = 0.0;
+  std::optional<double> bvh_ms;  // if a tree was built
   double upload_ms = 0.0;
 };
 

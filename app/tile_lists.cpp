@@ -22,8 +22,6 @@ TileLists::TileLists(const gpu::Device& device, const std::vector<gpu::Specializ
       view_kernel_(device, kViewPartsSpirv, frame_interface(), constants, "view_parts"),
       bin_kernel_(device, kBinPartsSpirv, frame_interface(), constants, "bin_parts"),
       sky_kernel_(device, kFillSkySpirv, frame_interface(), constants, "fill_sky"),
-      undecided_kernel_(device, kTraceUndecidedSpirv, frame_interface(), constants,
-                        "trace_undecided"),
       view_parts_(device, std::size_t{parts} * sizeof(ViewPart), gpu::Memory::device,
                   "parts in view"),
       counts_(device, std::size_t{tiles_across(width)} * tiles_across(band_rows) * sizeof(uint32_t),

@@ -23,9 +23,6 @@ class TileLists {
   [[nodiscard]] const gpu::Buffer& order() const { return order_; }
   [[nodiscard]] const gpu::Buffer& seen() const { return seen_; }
 
-  // Goes on with the rays that trace_tiles.comp leaves undecided.
-  [[nodiscard]] const gpu::Kernel& undecided_kernel() const { return undecided_kernel_; }
-
   // Looks at all parts with a new camera. Milliseconds on the device, as below.
   double view(gpu::Commands& commands, const gpu::BoundBuffers& bound);
 
@@ -40,7 +37,6 @@ class TileLists {
   gpu::Kernel view_kernel_;
   gpu::Kernel bin_kernel_;
   gpu::Kernel sky_kernel_;
-  gpu::Kernel undecided_kernel_;
   gpu::Buffer view_parts_;
   gpu::Buffer counts_;
   gpu::Buffer tile_parts_;

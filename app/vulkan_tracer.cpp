@@ -27,12 +27,43 @@ std::vector<gpu::Specialization> constants_of(const BakedScene& scene, const Ker
 std::optional<TileLists> lists_for(const gpu::Device& device, const BakedScene& scene,
                                    const KernelChoice& choice, uint32_t width, uint32_t band_rows) {
   if (choice.accel != Accel::tiles) return std::nullopt;
-  if (!device.has_subgroup_operations()) {
+  if (device.subgroup_size() == 0) {
     throw gpu::Error(device.report().name +
                      " lacks the subgroup operations of --accel tiles; use --accel list.");
   }
   return std::optional<TileLists>(std::in_place, device, constants_of(scene, choice),
                                   static_cast<uint32_t>(scene.cages.size()), width, band_rows);
+}
+
+struct NamedKernel {
+  std::span<const uint32_t> spirv;
+  const char* name;
+};
+
+// What traces new rays, then what goes on with those that it leaves, and so on.
+std::vector<NamedKernel> kernel_names(const gpu::Device& device, Accel accel) {
+  switch (accel) {
+    case Accel::tiles:
+      return {{kTraceTilesSpirv, "trace_tiles"}, {kTraceUndecidedSpirv, "trace_undecided"}};
+    case Accel::bvh:
+      // A subgroup tests the eight children of a node at once.
+      if (device.subgroup_size() < 8) return {{kTraceBvhSpirv, "trace_bvh"}};
+      return {{kTracePacketsSpirv, "trace_packets"},
+              {kSearchPacketsSpirv, "search_packets"},
+              {kTraceBvhSpirv, "trace_bvh"}};
+    default:
+      return {{kTraceListSpirv, "trace_list"}};
+  }
+}
+
+std::vector<gpu::Kernel> kernels_for(const gpu::Device& device, const BakedScene& scene,
+                                     const KernelChoice& choice) {
+  std::vector<gpu::Kernel> kernels;
+  for (const NamedKernel& kernel : kernel_names(device, choice.accel)) {
+    kernels.emplace_back(device, kernel.spirv, frame_interface(), constants_of(scene, choice),
+                         kernel.name);
+  }
+  return kernels;
 }
 
 }  // namespace
@@ -46,8 +77,7 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
       buffer_limit_(std::min<std::size_t>(buffer_limit, device.limits().maxStorageBufferRange)),
       band_rows_(rows_in_a_band(device.report().name, buffer_limit_, width, height, choice.aovs)),
       tiles_(lists_for(device, scene, choice, width, band_rows_)),
-      kernel_(device, tiles_ ? kTraceTilesSpirv : kTraceListSpirv, frame_interface(),
-              constants_of(scene, choice), tiles_ ? "trace_tiles" : "trace_list"),
+      kernels_(kernels_for(device, scene, choice)),
       commands_(device),
       staging_(device, kStagingBytes),
       params_(device, sizeof(TraceParams), gpu::Memory::device, "trace parameters"),
@@ -55,6 +85,8 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
                  gpu::Memory::device, "triangles"),
       cages_(device, cage_bytes(device.report().name, buffer_limit_, scene), gpu::Memory::device,
              "cages"),
+      bvh_(device, bvh_bytes(device.report().name, buffer_limit_, scene), gpu::Memory::device,
+           "tree"),
       colors_(device, std::size_t{width} * band_rows_ * sizeof(vec4), gpu::Memory::device,
               "colors"),
       // A binding wants a buffer; without AOVs nothing is written to it.
@@ -64,15 +96,18 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
           gpu::Memory::device, "AOVs"),
       queue_(device, groups_of_band(width, 0, band_rows_).most() * kGroupRays),
       unused_(device, sizeof(vec4), gpu::Memory::device, "unused"),
-      bound_(device, kernel_,
+      bound_(device, kernels_[0],
              {&params_, &triangles_, &colors_, &aovs_buffer_, &cages_, &queue_.paused(),
               &queue_.queued(), tiles_ ? &tiles_->view_parts() : &unused_,
               tiles_ ? &tiles_->counts() : &unused_, tiles_ ? &tiles_->parts() : &unused_,
-              tiles_ ? &tiles_->order() : &unused_, tiles_ ? &tiles_->seen() : &unused_}) {
+              tiles_ ? &tiles_->order() : &unused_, tiles_ ? &tiles_->seen() : &unused_, &bvh_}) {
   const Stopwatch watch;
   staging_.upload(commands_, std::as_bytes(std::span(scene.triangles)), triangles_);
   if (!scene.cages.empty()) {
     staging_.upload(commands_, std::as_bytes(std::span(scene.cages)), cages_);
+  }
+  if (!scene.bvh.empty()) {
+    staging_.upload(commands_, std::as_bytes(std::span(scene.bvh)), bvh_);
   }
   upload_ms_ = watch.milliseconds();
 }
@@ -113,12 +148,10 @@ double VulkanTracer::render_band(uint32_t first_row, uint32_t rows,
     groups.begin = 0;
     gpu_ms = tiles_->bin(commands_, bound_, first_row, rows, groups.end);
   }
-  const gpu::Kernel& rest = tiles_ ? tiles_->undecided_kernel() : kernel_;
   for (uint32_t group = groups.begin; group < groups.end;) {
     const uint32_t count = std::min({budget_.groups(), groups.end - group, groups.most()});
-    const double ms =
-        queue_.run(commands_, kernel_, rest, bound_, TilePush{{}, group, first_row, rows}, count,
-                   kGroupRays, between_submits);
+    const double ms = queue_.run(commands_, kernels_, bound_, TilePush{{}, group, first_row, rows},
+                                 count, kGroupRays, between_submits);
     gpu_ms += ms;
     group += count;
     budget_.record(count, ms);

@@ -45,12 +45,13 @@ class VulkanTracer {
   std::size_t buffer_limit_;
   uint32_t band_rows_;
   std::optional<TileLists> tiles_;
-  gpu::Kernel kernel_;
+  std::vector<gpu::Kernel> kernels_;  // for new rays, then for those that pause
   gpu::Commands commands_;
   gpu::Staging staging_;
   gpu::Buffer params_;
   gpu::Buffer triangles_;
   gpu::Buffer cages_;
+  gpu::Buffer bvh_;
   gpu::Buffer colors_;
   gpu::Buffer aovs_buffer_;
   RayQueue queue_;

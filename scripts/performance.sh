@@ -12,9 +12,10 @@ models=(sphere-20 sphere-80 sphere-320 teapot teapot-1000 torus relief)
 . scripts/measure.sh
 ms() { figure '.gpu_ms.median | if . < 100 then (. * 10 | round / 10) else round end'; }
 
-# One line: the thesis, the robust solver with all patches and with tiles, and how much faster the last is than the first.
+# One line: the thesis, the robust solver with all patches, with tiles and with the tree, and how much faster tiles are than
+# the thesis.
 row() {
-  local driver=$1 model=$2 surface=$3 thesis list tiles patches
+  local driver=$1 model=$2 surface=$3 thesis list tiles bvh patches
   measure "$driver" "$model" 3 --surface "$surface" --preset thesis
   thesis=$(ms)
   measure "$driver" "$model" 3 --surface "$surface" --accel list
@@ -22,7 +23,9 @@ row() {
   measure "$driver" "$model" 9 --surface "$surface" --accel tiles
   tiles=$(ms)
   patches=$(figure .patches)
-  echo "| $model | $patches | $surface | $thesis | $list | $tiles | $(jq -n "$thesis / $tiles | . * 10 | round / 10") |"
+  measure "$driver" "$model" 9 --surface "$surface" --accel bvh
+  bvh=$(ms)
+  echo "| $model | $patches | $surface | $thesis | $list | $tiles | $bvh | $(jq -n "$thesis / $tiles | . * 10 | round / 10") |"
 }
 
 scripts/unpack-mesa.sh >/dev/null
@@ -36,18 +39,19 @@ scripts/unpack-mesa.sh >/dev/null
 # Speed
 
 Written by \`scripts/performance.sh\` on $(nproc) cores: milliseconds on the device for a frame of 800x600 with the default
-camera, medians of 3 frames after a warm-up (tiles: 9). Device: $(figure .device).
+camera, medians of 3 frames after a warm-up (tiles, bvh: 9). Device: $(figure .device).
 The machine is shared: 20% either way means nothing.
 
 - thesis: every triangle at every pixel, bisection at Rank 10, height shell (\`--preset thesis\`). It drops pixels and finds
   a root rather than the first one; the other two columns are exact
 - list: every patch at every pixel, robust solver, normal shell
 - tiles: the same picture from lists of the parts that 8x8 pixels touch
+- bvh: the same picture by a tree over the parts' boxes
 END
   for driver in newer stock; do
     printf '\n## %s\n\n' "${name[$driver]}"
-    echo '| model | patches | surface | thesis | list | tiles | thesis / tiles |'
-    echo '|---|---|---|---|---|---|---|'
+    echo '| model | patches | surface | thesis | list | tiles | bvh | thesis / tiles |'
+    echo '|---|---|---|---|---|---|---|---|'
     for model in "${models[@]}"; do row $driver "$model" phong; done
     for model in sphere-20 sphere-80 sphere-320; do row $driver "$model" sphere; done
   done

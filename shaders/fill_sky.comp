@@ -11,6 +11,7 @@ layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(std430, binding = BINDING_TILE_ORDER) writeonly restrict buffer TileOrderBlock { uint tile_order[]; };
 layout(std430, binding = BINDING_TILES_SEEN) restrict buffer TilesSeenBlock { uint tiles_seen; };
 
+#include "rays.glsl"
 #include "tile_parts.glsl"
 #include "trace.glsl"
 #include "write_pixel.glsl"

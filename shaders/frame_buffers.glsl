@@ -24,5 +24,8 @@ layout(std430, binding = BINDING_TRIANGLES) readonly restrict buffer TrianglesBl
 };
 layout(std430, binding = BINDING_CAGES) readonly restrict buffer CagesBlock { Cage cages[]; };
 
+// A pixel of a tile: invocations next to each other see blocks of 4 x 2 pixels, then 8 x 2, 8 x 4.
+uvec2 pixel_in_tile(uint i) { return uvec2((i & 3u) | ((i >> 1) & 4u), ((i >> 2) & 1u) | ((i >> 3) & 6u)); }
+
 // Tiles that so many pixels of a row or a column touch.
 uint tiles_across(uint pixels) { return (pixels + TILE_SIZE - 1u) / TILE_SIZE; }

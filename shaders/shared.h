@@ -36,6 +36,20 @@ struct Cage {
                // own
 };
 
+// One of the eight children of a node of the tree over the parts' boxes, 32 bytes; node n has entries
+// 8 n to 8 n + 7, in the order of octants: bit k of a child's number is set if it lies on the far
+// side along axis k.
+struct BvhEntry {
+  float lo_x;  // of a box that contains the child's parts
+  float lo_y;
+  float lo_z;
+  uint link;   // first entry of the child's node, BVH_PART + index of the part, or BVH_NOTHING
+  float hi_x;
+  float hi_y;
+  float hi_z;
+  uint next;  // the entry with which a ray goes on that is through with this one, BVH_END if none
+};
+
 // A part as a frame's camera sees it, 192 bytes, written anew for every frame. Image positions are
 // in pixels, y down, (0, 0) the top left corner.
 struct ViewPart {
@@ -91,7 +105,7 @@ struct PausedRay {
   uint triangle;
   uint part;  // of the hit
   uint ray;   // pixel of the image in raster order, or index of a cast ray
-  uint item;  // of the list, with which it goes on
+  uint item;  // of the list or entry of the tree, with which it goes on
   uint path;  // in a part, the node with which it goes on
   uint evaluations;
   uint candidates;
@@ -162,6 +176,13 @@ const float OVERLAP = 0.03125;
 // A part is enlarged by so much for its cone.
 const float CONE_MARGIN = 0.125;
 
+// Boxes are widened by this part of the scene's extent when the tree is built, and of the distance of
+// a ray's anchor when it is met: some roundings of a position, and what the solver calls a touch.
+const float BVH_SLACK = 0.00000095367431640625;  // 2^-20
+const uint BVH_NOTHING = 0u;
+const uint BVH_PART = 2147483648u;
+const uint BVH_END = 4294967295u;
+
 // Surfaces: how far a point of the base triangle is displaced.
 const uint SURFACE_FLAT = 0u;
 const uint SURFACE_PHONG = 1u;
@@ -201,6 +222,7 @@ const uint SOLVER_ROBUST = 1u;
 #define BINDING_TILE_PARTS 12
 #define BINDING_TILE_ORDER 13
 #define BINDING_TILES_SEEN 14
+#define BINDING_BVH 15
 
 // Specialisation constants.
 #define CONSTANT_SURFACE 0

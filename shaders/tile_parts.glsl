@@ -9,3 +9,5 @@ bool is_full(uint tile) { return tile_counts[tile] > TILE_PARTS; }
 uint part_count(uint tile) { return is_full(tile) ? params.cage_count : tile_counts[tile]; }
 
 uint part_at(uint tile, uint item) { return is_full(tile) ? item : tile_parts[tile * TILE_PARTS + item]; }
+
+#include "list_walk.glsl"

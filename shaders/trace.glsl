@@ -1,62 +1,6 @@
-// One pixel: the rays, the list of all triangles, the outputs. Reads params, triangles and cages; SURFACE, SHELL,
-// SOLVER, AOVS, COUNTS and GROUPS are constants.
-
-// A pixel's ray. Distances along it count from its near point for the bisection, as in the thesis; the robust solver
-// goes by the third coordinate of a frame near the scene's centre.
-struct PixelRay {
-  vec3 near_point;
-  vec3 view;
-  real near_distance;  // from the eye
-  real far_depth;      // from the near point; the robust solver needs no end
-  uint tile;       // of its band
-  RayFrame frame;
-  real nearest;  // the ray begins there: z in the frame
-  vec3 anchor;   // the ray's point at z = 0
-  // The anchor's distance from the eye in two parts, of the axis and what the ray has more: added last, they
-  // round once.
-  real axis;
-  real beyond_axis;
-};
-
-// The frame of a ray that passes the camera's at depth 0 here.
-RayFrame camera_frame(vec2 across) {
-  EXACT RayFrame frame;
-  frame.anchor = vec3(params.anchor);
-  frame.x = vec3(params.frame_x);
-  frame.y = vec3(params.frame_y);
-  frame.z = vec3(params.frame_z);
-  frame.offset = across;
-  frame.slope = across / params.anchor.w;
-  frame.stretch = sqrt(real(1.0) + frame.slope.x * frame.slope.x + frame.slope.y * frame.slope.y);
-  return frame;
-}
-
-// The ray through a point of the near plane, given from the eye, that passes the camera's frame at depth 0 here.
-PixelRay ray_through(vec3 to_near, vec2 across) {
-  PixelRay ray;
-  ray.tile = 0u;
-  ray.near_distance = length3(to_near);
-  ray.far_depth = ray.near_distance * (params.eye.w - real(1.0));
-  ray.view = to_near / ray.near_distance;
-  ray.near_point = vec3(params.eye) + to_near;
-  real axis = params.anchor.w;
-  ray.frame = camera_frame(across);
-  ray.nearest = params.frame_z.w;
-  ray.anchor = ray.frame.anchor + ray.frame.x * across.x + ray.frame.y * across.y;
-  real square = across.x * across.x + across.y * across.y;
-  ray.axis = axis;
-  ray.beyond_axis = square / (axis + sqrt(axis * axis + square));
-  return ray;
-}
-
-PixelRay pixel_ray(uvec2 pixel) {
-  real x = real(pixel.x) + real(0.5);
-  real y = real(pixel.y) + real(0.5);
-  vec3 to_near = vec3(params.ray_corner) + vec3(params.ray_dx) * x + vec3(params.ray_dy) * y;
-  vec2 across = vec2(params.frame_x.w * (x - real(0.5) * real(params.width)),
-                     params.frame_y.w * (y - real(0.5) * real(params.height)));
-  return ray_through(to_near, across);
-}
+// One ray's way through the patches, and its outputs. Which patches those are say every_part.glsl, tile_parts.glsl or
+// bvh_parts.glsl: one of them is included ahead. Reads params, triangles and cages; SURFACE, SHELL, SOLVER, AOVS, COUNTS
+// and GROUPS are constants.
 
 Shape scene_shape() {
   Shape shape;
@@ -85,7 +29,7 @@ Walk walk_begun(int steps) {
 }
 
 bool is_through(PixelRay ray, Walk walk) {
-  return walk.item >= (SOLVER == SOLVER_ROBUST ? part_count(ray.tile) : params.triangle_count);
+  return SOLVER == SOLVER_ROBUST ? no_parts_left(ray, walk.item) : walk.item >= params.triangle_count;
 }
 
 // The thesis's loop. hit.z counts from the near point. All rays take the same triangles at the same time, as many
@@ -118,39 +62,17 @@ void walk_bisect(PixelRay ray, uint pass, INOUT(Walk) walk) {
   walk.item = end;
 }
 
-// Every part of every patch whose ball the ray meets; of a divided patch the parts stand in a tree, depth first.
-// hit.z is in the ray's frame.
+// The parts that the ray comes near, until none is left. hit.z is in the ray's frame.
 void walk_robust(PixelRay ray, INOUT(Walk) walk) {
-  real nearest = ray.frame.stretch * ray.nearest;
-  uint count = part_count(ray.tile);
-  uint part = 0u;
-  while (walk.item < count && walk.steps > 0) {
-    // Cages that the ray passes by are passed in a loop of their own: a loop that holds the search below would go
+  while (!no_parts_left(ray, walk.item) && walk.steps > 0) {
+    // Parts that the ray passes by are passed in a loop of their own: a loop that holds the search below would go
     // through all of it, masked, for each of them.
-    bool met = false;
-    while (walk.item < count && walk.steps > 0 && !met) {
-      --walk.steps;
-      part = part_at(ray.tile, walk.item);
-      vec4 ball = cages[part].ball;
-      vec3 center = vec3(ball) - ray.anchor;
-      real z = dot3(center, ray.view);
-      real size = dot3(center, center);
-      // The distance of the centre from the ray against the radius; the roundings of `size` may add to it.
-      bool beside = size - z * z > ball.w * ball.w + real(5e-7) * size || z + ball.w < nearest ||
-                    z - ball.w > ray.frame.stretch * walk.hit.z + real(1e-6) * (ball.w + abs(z));
-      if (beside) {
-        walk.item += GROUPS ? cages[part].skip + 1u : 1u;
-        walk.path = WHOLE;
-      } else {
-        met = !GROUPS || cages[part].skip == 0u;
-        if (!met) ++walk.item;
-      }
-    }
-    if (met) {
+    uint part = find_part(ray, walk);
+    if (part != NO_TRIANGLE) {
       if (COUNTS && walk.path == WHOLE) ++walk.counts.candidates;
       meet_part(scene_shape(), triangles[cages[part].triangle], cages[part], part, ray.frame, ray.view, ray.nearest,
                 walk);
-      if (walk.path == WHOLE) ++walk.item;
+      if (walk.path == WHOLE) walk.item = item_after(walk.item);
     }
     walk.steps -= VISIT_STEPS;
   }
@@ -171,21 +93,6 @@ Hit met_by(PixelRay ray, Walk walk) {
   hit.z = SOLVER == SOLVER_ROBUST ? ray.axis + (ray.beyond_axis + ray.frame.stretch * hit.z)
                                   : ray.near_distance + hit.z;
   return hit;
-}
-
-PixelRay ray_cast(CastRay asked) {
-  PixelRay ray;
-  ray.tile = 0u;
-  ray.near_point = vec3(asked.anchor) + vec3(asked.direction) * asked.anchor.w;
-  ray.view = vec3(asked.direction);
-  ray.anchor = vec3(asked.anchor);
-  ray.frame = ray_frame(ray.anchor, ray.view);
-  ray.nearest = asked.anchor.w;
-  ray.near_distance = asked.anchor.w;
-  ray.far_depth = real(1e30);
-  ray.axis = real(0.0);
-  ray.beyond_axis = real(0.0);
-  return ray;
 }
 
 // The output of a cast ray whose walk is through.

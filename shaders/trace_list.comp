@@ -8,6 +8,7 @@
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 
 #include "frame_buffers.glsl"
+#include "rays.glsl"
 #include "every_part.glsl"
 #include "trace.glsl"
 #include "write_pixel.glsl"

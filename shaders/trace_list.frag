@@ -14,6 +14,7 @@ layout(location = 1) out vec4 out_normal_z;
 layout(location = 2) out vec4 out_geometric_u;
 layout(location = 3) out uvec4 out_rest;  // v's bits, triangle, evaluations, candidates
 
+#include "rays.glsl"
 #include "every_part.glsl"
 #include "trace.glsl"
 #include "queue.glsl"

@@ -13,6 +13,7 @@ layout(local_size_x = TILE_SIZE * TILE_SIZE) in;
 #include "frame_buffers.glsl"
 layout(std430, binding = BINDING_VIEW_PARTS) readonly restrict buffer ViewPartsBlock { vec4 view_words[]; };
 
+#include "rays.glsl"
 #include "tile_parts.glsl"
 #include "trace.glsl"
 #include "write_pixel.glsl"
@@ -99,10 +100,7 @@ void meet(uint part, PixelRay ray, vec2 position, INOUT(Walk) walk, INOUT(bool) 
 void main() {
   uint tile = tile_order[push.first_group + gl_WorkGroupID.x];
   uint columns = tiles_across(params.width);
-  // Invocations next to each other see blocks of 4 x 2 pixels, then 8 x 2, 8 x 4.
-  uint i = gl_LocalInvocationIndex;
-  uvec2 in_tile = uvec2((i & 3u) | ((i >> 1) & 4u), ((i >> 2) & 1u) | ((i >> 3) & 6u));
-  uvec2 pixel = uvec2(tile % columns, tile / columns) * TILE_SIZE + uvec2(0u, push.first_row) + in_tile;
+  uvec2 pixel = uvec2(tile % columns, tile / columns) * TILE_SIZE + uvec2(0u, push.first_row) + pixel_in_tile(gl_LocalInvocationIndex);
   vec2 position = vec2(pixel) + vec2(0.5);
   vec2 least = vec2(subgroupMin(position.x), subgroupMin(position.y));
   vec2 largest = vec2(subgroupMax(position.x), subgroupMax(position.y));

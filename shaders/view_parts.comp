@@ -10,6 +10,7 @@ layout(local_size_x = PARTS_SIZE) in;
 #include "frame_buffers.glsl"
 layout(std430, binding = BINDING_VIEW_PARTS) writeonly restrict buffer ViewPartsBlock { ViewPart view_parts[]; };
 
+#include "rays.glsl"
 #include "every_part.glsl"
 #include "trace.glsl"
 #include "view_part.glsl"

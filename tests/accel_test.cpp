@@ -1,8 +1,11 @@
-// Tiles change the time of a frame, not a bit of it.
+// Accelerations change the time of a frame, not a bit of it.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 
+#include "app/accel.h"
+#include "app/bvh.h"
 #include "app/cage.h"
 #include "app/hard_scenes.h"
 #include "app/vulkan_tracer.h"
@@ -12,7 +15,9 @@
 namespace trisect {
 namespace {
 
-class Tiles : public test::GpuTest {};
+class Acceleration : public test::GpuTest {};
+
+constexpr std::array kFast{Accel::tiles, Accel::bvh};
 
 Frame trace(const BakedScene& scene, const TraceSettings& settings, Accel accel,
             std::size_t buffer_limit = std::numeric_limits<std::size_t>::max()) {
@@ -40,6 +45,16 @@ void expect_equal(const Frame& a, const Frame& b, const std::string& what) {
   EXPECT_EQ(different, 0U) << what;
 }
 
+// Every acceleration against the list.
+void expect_all_equal(BakedScene scene, const TraceSettings& settings, const std::string& what,
+                      std::size_t buffer_limit = std::numeric_limits<std::size_t>::max()) {
+  scene.bvh = build_bvh(scene);
+  const Frame list = trace(scene, settings, Accel::list);
+  for (const Accel accel : kFast) {
+    expect_equal(list, trace(scene, settings, accel, buffer_limit), what + " " + accel_name(accel));
+  }
+}
+
 // The image's sides are no multiples of a tile's.
 TraceSettings small(const Mesh& mesh, const BakedScene& scene) {
   TraceSettings settings = test::framed(mesh, scene, 67, 51, 10);
@@ -47,7 +62,7 @@ TraceSettings small(const Mesh& mesh, const BakedScene& scene) {
   return settings;
 }
 
-TEST_F(Tiles, AreTheListToTheBit) {
+TEST_F(Acceleration, IsTheListToTheBit) {
   for (const std::string& name : test::asset_names()) {
     // Like the teapot, only larger.
     if (name == "teapot-1000") continue;
@@ -62,13 +77,13 @@ TEST_F(Tiles, AreTheListToTheBit) {
       if (!usual && name != "sphere-20" && name != "cube") continue;
       const BakedScene scene = bake_with_cages(mesh, choice);
       const TraceSettings settings = small(mesh, scene);
-      expect_equal(trace(scene, settings, Accel::list), trace(scene, settings, Accel::tiles),
-                   name + " " + std::to_string(choice.surface) + std::to_string(choice.shell));
+      expect_all_equal(scene, settings,
+                       name + " " + std::to_string(choice.surface) + std::to_string(choice.shell));
     }
   }
 }
 
-TEST_F(Tiles, SeeWhatIsAroundAndBehindTheEye) {
+TEST_F(Acceleration, SeesWhatIsAroundAndBehindTheEye) {
   const Mesh mesh = test::load_asset("torus");
   const BakedScene scene = bake_with_cages(mesh, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
   TraceSettings settings = small(mesh, scene);
@@ -80,30 +95,28 @@ TEST_F(Tiles, SeeWhatIsAroundAndBehindTheEye) {
           glm::dvec3(scene.extent * 20.0, 1.0, 2.0)}) {
       settings.camera.eye = scene.origin + eye;
       settings.camera.target = scene.origin + glm::dvec3(0.3, 0.1, -0.2) * scene.extent;
-      expect_equal(trace(scene, settings, Accel::list), trace(scene, settings, Accel::tiles),
-                   std::to_string(fov) + " " + std::to_string(eye.x));
+      expect_all_equal(scene, settings, std::to_string(fov) + " " + std::to_string(eye.x));
     }
   }
 }
 
-TEST_F(Tiles, ThatMorePartsTouchThanTheirListsHoldGoThroughAll) {
+TEST_F(Acceleration, BearsManyPartsInOneTile) {
   const Mesh mesh = hard::sphere(4);
   const BakedScene scene = bake_with_cages(mesh, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
   // The whole model in a few tiles.
   TraceSettings settings = test::framed(mesh, scene, 40, 24, 10);
   settings.solver = SOLVER_ROBUST;
   ASSERT_GT(scene.cages.size(), 15U * TILE_PARTS);
-  expect_equal(trace(scene, settings, Accel::list), trace(scene, settings, Accel::tiles), "");
+  expect_all_equal(scene, settings, "");
 }
 
-TEST_F(Tiles, AreMadeForEveryBandOfAnImage) {
+TEST_F(Acceleration, WorksInEveryBandOfAnImage) {
   const Mesh mesh = test::load_asset("sphere-80");
   const BakedScene scene = bake_with_cages(mesh, {SURFACE_FLAT, 0.0, SHELL_NORMAL});
   const TraceSettings settings = small(mesh, scene);
   // Eight rows of 67 pixels of 48 bytes: seven bands.
   constexpr std::size_t limit = 26000;
-  expect_equal(trace(scene, settings, Accel::list), trace(scene, settings, Accel::tiles, limit),
-               "");
+  expect_all_equal(scene, settings, "", limit);
 }
 
 }  // namespace

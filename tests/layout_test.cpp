@@ -104,6 +104,19 @@ TEST(Layout, ViewPart) {
                                    {"sizes", offsetof(ViewPart, sizes)}}));
 }
 
+TEST(Layout, BvhEntry) {
+  const Held held = bound_to(BINDING_BVH, kTraceBvhSpirv);
+  EXPECT_EQ(held.stride, sizeof(BvhEntry));
+  EXPECT_EQ(held.offsets, (Offsets{{"lo_x", offsetof(BvhEntry, lo_x)},
+                                   {"lo_y", offsetof(BvhEntry, lo_y)},
+                                   {"lo_z", offsetof(BvhEntry, lo_z)},
+                                   {"link", offsetof(BvhEntry, link)},
+                                   {"hi_x", offsetof(BvhEntry, hi_x)},
+                                   {"hi_y", offsetof(BvhEntry, hi_y)},
+                                   {"hi_z", offsetof(BvhEntry, hi_z)},
+                                   {"next", offsetof(BvhEntry, next)}}));
+}
+
 TEST(Layout, TraceParams) {
   const Held held = bound_to(BINDING_PARAMS);
   EXPECT_EQ(held.stride, sizeof(TraceParams));
@@ -166,8 +179,9 @@ TEST(Layout, OutputsAndPushConstants) {
 
 TEST(Layout, InterfaceIsTheKernels) {
   std::map<uint32_t, VkDescriptorType> in_kernels;
-  for (const auto& spirv : {kTraceListSpirv, kViewPartsSpirv, kBinPartsSpirv, kFillSkySpirv,
-                            kTraceTilesSpirv, kTraceUndecidedSpirv}) {
+  for (const auto& spirv :
+       {kTraceListSpirv, kViewPartsSpirv, kBinPartsSpirv, kFillSkySpirv, kTraceTilesSpirv,
+        kTraceUndecidedSpirv, kTracePacketsSpirv, kSearchPacketsSpirv, kTraceBvhSpirv}) {
     const Compiler kernel = reflect(spirv);
     const auto held = kernel.get_shader_resources();
     for (const auto& buffer : held.uniform_buffers) {

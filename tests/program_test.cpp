@@ -127,6 +127,7 @@ TEST_F(Program, ComplainsAboutFilesWithCode3) {
 TEST_F(Program, PicksAnAccelerationAndSaysWhich) {
   expect_complaint(render({"--accel", "tiles", "--preset", "thesis"}), 2, "--solver robust");
   expect_complaint(render({"--accel", "tiles", "--backend", "opengl"}), 2, "--backend vulkan");
+  expect_complaint(render({"--accel", "bvh", "--backend", "cpu"}), 2, "--backend vulkan");
   const auto accel = [&](const std::vector<std::string>& options) {
     std::vector<std::string> arguments{"--stats", folder_ / "s.json"};
     arguments.insert(arguments.end(), options.begin(), options.end());
@@ -137,6 +138,7 @@ TEST_F(Program, PicksAnAccelerationAndSaysWhich) {
   EXPECT_EQ(accel({}), "tiles");
   EXPECT_EQ(accel({"--accel", "auto"}), "tiles");
   EXPECT_EQ(accel({"--accel", "list"}), "list");
+  EXPECT_EQ(accel({"--accel", "bvh"}), "bvh");
   EXPECT_EQ(accel({"--preset", "thesis"}), "list");
   EXPECT_EQ(accel({"--backend", "cpu"}), "list");
 }

@@ -1,9 +1,11 @@
 // Rays that pause, however often, meet what they would have met at one go.
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstring>
 #include <random>
 
+#include "app/bvh.h"
 #include "app/cage.h"
 #include "app/hard_scenes.h"
 #include "app/ray_caster.h"
@@ -36,6 +38,32 @@ TEST_F(Queue, PausesLoseNothing) {
     const std::vector<CastHit> hits = cast(scene, settings, rays, steps);
     ASSERT_EQ(hits.size(), expected.size());
     EXPECT_EQ(std::memcmp(hits.data(), expected.data(), hits.size() * sizeof(CastHit)), 0) << steps;
+  }
+}
+
+TEST_F(Queue, RaysThatGoByATreeMeetTheSame) {
+  const Mesh mesh = test::load_asset("sphere-20");
+  BakedScene scene = bake_with_cages(mesh, {SURFACE_PHONG, 0.65, SHELL_HEIGHT});
+  TraceSettings settings = test::framed(mesh, scene, 8, 8, 10);
+  settings.solver = SOLVER_ROBUST;
+  std::mt19937_64 random(6);
+  std::vector<CastRay> rays = hard::rays_at_surface(scene, random, 500);
+  // Along the axes too, whose slabs are met nowhere or everywhere.
+  for (CastRay& ray : rays) {
+    if (random() % 4 > 0) continue;
+    ray.direction = vec4(0.0F);
+    ray.direction[static_cast<int>(random() % 3)] = random() % 2 == 0 ? 1.0F : -1.0F;
+  }
+  const std::vector<CastHit> expected = cast(scene, settings, rays, RayQueue::kSteps);
+  scene.bvh = build_bvh(scene);
+  for (const uint32_t steps : {1U, 37U, RayQueue::kSteps}) {
+    const std::vector<CastHit> hits = cast(scene, settings, rays, steps);
+    ASSERT_EQ(hits.size(), expected.size());
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      // All but the work done.
+      EXPECT_EQ(std::memcmp(&hits[i], &expected[i], offsetof(CastHit, evaluations)), 0)
+          << i << " in passes of " << steps;
+    }
   }
 }
 

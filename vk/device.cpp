@@ -19,10 +19,13 @@ Device::Device(const Instance& instance, const std::string& request) {
   properties.pNext = &subgroups;
   vkGetPhysicalDeviceProperties2(physical, &properties);
   limits_ = properties.properties.limits;
-  constexpr VkSubgroupFeatureFlags operations =
-      VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
-  subgroup_operations_ = (subgroups.supportedOperations & operations) == operations &&
-                         (subgroups.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
+  constexpr VkSubgroupFeatureFlags operations = VK_SUBGROUP_FEATURE_VOTE_BIT |
+                                                VK_SUBGROUP_FEATURE_BALLOT_BIT |
+                                                VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
+  if ((subgroups.supportedOperations & operations) == operations &&
+      (subgroups.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0) {
+    subgroup_size_ = subgroups.subgroupSize;
+  }
   vkGetPhysicalDeviceMemoryProperties(physical, &memory_);
   uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);

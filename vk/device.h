@@ -27,8 +27,9 @@ class Device {
   [[nodiscard]] const DeviceReport& report() const { return report_; }
   [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return limits_; }
 
-  // Whether kernels may use subgroupBroadcast, subgroupMin and their like.
-  [[nodiscard]] bool has_subgroup_operations() const { return subgroup_operations_; }
+  // Invocations of a subgroup; 0 if kernels may not use subgroupBroadcast, subgroupMin and their
+  // like.
+  [[nodiscard]] uint32_t subgroup_size() const { return subgroup_size_; }
 
   // Bits of a timestamp that count; 0 if the queue cannot write timestamps.
   [[nodiscard]] uint32_t timestamp_bits() const { return timestamp_bits_; }
@@ -51,7 +52,7 @@ class Device {
   VkQueue queue_ = VK_NULL_HANDLE;
   uint32_t family_ = 0;
   uint32_t timestamp_bits_ = 0;
-  bool subgroup_operations_ = false;
+  uint32_t subgroup_size_ = 0;
   DeviceReport report_;
   VkPhysicalDeviceLimits limits_{};
   VkPhysicalDeviceMemoryProperties memory_{};

@@ -1,0 +1,192 @@
+#include "app/bvh.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <new>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include "app/part_boxes.h"
+
+namespace trisect {
+namespace {
+
+constexpr uint32_t kChildren = 8;
+constexpr uint32_t kDepth = 32;
+
+// What Embree's builder makes: a tree of these, in its own memory.
+struct Branch {
+  uint32_t part = NO_TRIANGLE;  // of a leaf
+  std::array<Branch*, kChildren> children{};
+  std::array<PartBox, kChildren> boxes{};
+};
+
+void* new_branch(RTCThreadLocalAllocator allocator) {
+  return new (rtcThreadLocalAlloc(allocator, sizeof(Branch), alignof(Branch))) Branch;
+}
+
+void* create_node(RTCThreadLocalAllocator allocator, unsigned int, void*) {
+  return new_branch(allocator);
+}
+
+void set_children(void* node, void** children, unsigned int count, void*) {
+  for (unsigned int k = 0; k < count; ++k) {
+    static_cast<Branch*>(node)->children[k] = static_cast<Branch*>(children[k]);
+  }
+}
+
+void set_bounds(void* node, const RTCBounds** bounds, unsigned int count, void*) {
+  for (unsigned int k = 0; k < count; ++k) {
+    const RTCBounds& b = *bounds[k];
+    static_cast<Branch*>(node)->boxes[k] = {{b.lower_x, b.lower_y, b.lower_z},
+                                            {b.upper_x, b.upper_y, b.upper_z}};
+  }
+}
+
+void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives,
+                  std::size_t, void*) {
+  void* leaf = new_branch(allocator);
+  static_cast<Branch*>(leaf)->part = primitives->primID;
+  return leaf;
+}
+
+struct ReleaseDevice {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct ReleaseBvh {
+  void operator()(RTCBVH bvh) const { rtcReleaseBVH(bvh); }
+};
+
+void set_box(BvhEntry& entry, const PartBox& box) {
+  entry.lo_x = box.lo.x;
+  entry.lo_y = box.lo.y;
+  entry.lo_z = box.lo.z;
+  entry.hi_x = box.hi.x;
+  entry.hi_y = box.hi.y;
+  entry.hi_z = box.hi.z;
+}
+
+PartBox around(const PartBox& a, const PartBox& b) {
+  return {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)};
+}
+
+// Around nothing.
+PartBox no_box() {
+  const glm::vec3 most(std::numeric_limits<float>::max());
+  return {most, -most};
+}
+
+// Which child stands at which of the eight octants: the best pair of a child and an octant that is
+// left is matched first, the better the farther the child is on the octant's side.
+std::array<uint32_t, kChildren> octants_of(const Branch& branch) {
+  PartBox all = no_box();
+  for (uint32_t k = 0; k < kChildren; ++k) {
+    if (branch.children[k] != nullptr) all = around(all, branch.boxes[k]);
+  }
+  std::array<uint32_t, kChildren> at{};
+  at.fill(NO_TRIANGLE);
+  std::array<bool, kChildren> placed{};
+  while (true) {
+    float best = -std::numeric_limits<float>::infinity();
+    uint32_t best_child = kChildren;
+    uint32_t best_octant = kChildren;
+    for (uint32_t k = 0; k < kChildren; ++k) {
+      if (branch.children[k] == nullptr || placed[k]) continue;
+      const glm::vec3 side = (branch.boxes[k].lo - all.lo) + (branch.boxes[k].hi - all.hi);
+      for (uint32_t octant = 0; octant < kChildren; ++octant) {
+        if (at[octant] != NO_TRIANGLE) continue;
+        const float far = ((octant & 1U) != 0 ? side.x : -side.x) +
+                          ((octant & 2U) != 0 ? side.y : -side.y) +
+                          ((octant & 4U) != 0 ? side.z : -side.z);
+        if (!(far > best)) continue;
+        best = far;
+        best_child = k;
+        best_octant = octant;
+      }
+    }
+    if (best_child == kChildren) return at;
+    at[best_octant] = best_child;
+    placed[best_child] = true;
+  }
+}
+
+// Appends the branch's node and all below it. next: the entry that follows it.
+void flatten(const Branch& branch, uint32_t next, std::vector<BvhEntry>& bvh) {
+  const auto first = static_cast<uint32_t>(bvh.size());
+  bvh.resize(first + kChildren);
+  const std::array<uint32_t, kChildren> children = octants_of(branch);
+  for (uint32_t k = kChildren; k-- > 0;) {
+    const uint32_t follows = k + 1 < kChildren ? first + k + 1 : next;
+    BvhEntry entry{};
+    entry.next = follows;
+    entry.link = BVH_NOTHING;
+    set_box(entry, no_box());
+    if (children[k] != NO_TRIANGLE) {
+      const Branch& child = *branch.children[children[k]];
+      set_box(entry, branch.boxes[children[k]]);
+      if (child.part != NO_TRIANGLE) {
+        entry.link = BVH_PART + child.part;
+      } else {
+        entry.link = static_cast<uint32_t>(bvh.size());
+        flatten(child, follows, bvh);
+      }
+    }
+    bvh[first + k] = entry;
+  }
+}
+
+}  // namespace
+
+std::vector<BvhEntry> build_bvh(const BakedScene& scene) {
+  const std::vector<PartBox> boxes = part_boxes(scene);
+  std::vector<RTCBuildPrimitive> primitives;
+  primitives.reserve(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (scene.cages[i].skip > 0) continue;
+    const PartBox& b = boxes[i];
+    primitives.push_back(
+        {b.lo.x, b.lo.y, b.lo.z, 0, b.hi.x, b.hi.y, b.hi.z, static_cast<uint32_t>(i)});
+  }
+
+  const std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice> device(
+      rtcNewDevice(nullptr));
+  const std::unique_ptr<std::remove_pointer_t<RTCBVH>, ReleaseBvh> memory(rtcNewBVH(device.get()));
+  RTCBuildArguments arguments = rtcDefaultBuildArguments();
+  arguments.maxBranchingFactor = kChildren;
+  arguments.maxDepth = kDepth;
+  arguments.maxLeafSize = 1;
+  arguments.bvh = memory.get();
+  arguments.primitives = primitives.data();
+  arguments.primitiveCount = primitives.size();
+  arguments.primitiveArrayCapacity = primitives.size();
+  arguments.createNode = create_node;
+  arguments.setNodeChildren = set_children;
+  arguments.setNodeBounds = set_bounds;
+  arguments.createLeaf = create_leaf;
+  Branch* root = static_cast<Branch*>(rtcBuildBVH(&arguments));
+  if (root == nullptr) {
+    throw std::runtime_error("Embree could not build a tree of " +
+                             std::to_string(primitives.size()) + " boxes.");
+  }
+
+  std::vector<BvhEntry> bvh;
+  bvh.reserve(primitives.size() * 3 / 2 + kChildren);
+  if (root->part != NO_TRIANGLE) {
+    Branch only;
+    only.children[0] = root;
+    only.boxes[0] = boxes[root->part];
+    flatten(only, BVH_END, bvh);
+  } else {
+    flatten(*root, BVH_END, bvh);
+  }
+  return bvh;
+}
+
+}  // namespace trisect

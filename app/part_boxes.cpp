@@ -1,0 +1,57 @@
+#include "app/part_boxes.h"
+
+#include <cmath>
+#include <limits>
+
+#include "app/cage_net.h"
+#include "app/parallel_rows.h"
+#include "app/widen.h"
+
+namespace trisect {
+namespace {
+
+using glm::dvec3;
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+float below(double x) {
+  return std::nextafter(static_cast<float>(x), -kInfinity);
+}
+
+float above(double x) {
+  return std::nextafter(static_cast<float>(x), kInfinity);
+}
+
+PartBox part_box(const Triangle& single, const Cage& cage, uint shell, double slack) {
+  const in_double::Triangle tri = widen(single);
+  const SubTriangle part{dvec3(glm::vec3(cage.node)), cage.node.w};
+  const Quadratic q{dvec3(glm::vec3(cage.corner)), dvec3(glm::vec3(cage.edge))};
+  dvec3 lo(std::numeric_limits<double>::max());
+  dvec3 hi = -lo;
+  for (const dvec3& point : net_of(corners_of(tri, shell), enlarged(part, OVERLAP), q)) {
+    lo = glm::min(lo, point);
+    hi = glm::max(hi, point);
+  }
+  // Where the quadratic is no bound the patch's ball is one.
+  const dvec3 middle(tri.Domain);
+  const dvec3 stray(cage.corner.w);
+  lo = glm::max(lo - stray, middle - dvec3(tri.Domain.w)) - dvec3(slack);
+  hi = glm::min(hi + stray, middle + dvec3(tri.Domain.w)) + dvec3(slack);
+  return {{below(lo.x), below(lo.y), below(lo.z)}, {above(hi.x), above(hi.y), above(hi.z)}};
+}
+
+}  // namespace
+
+std::vector<PartBox> part_boxes(const BakedScene& scene) {
+  std::vector<PartBox> boxes(scene.cages.size());
+  const double slack = static_cast<double>(BVH_SLACK) * scene.radius;
+  parallel_chunks(boxes.size(), [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      const Cage& cage = scene.cages[i];
+      boxes[i] = part_box(scene.triangles[cage.triangle], cage, scene.choice.shell, slack);
+    }
+  });
+  return boxes;
+}
+
+}  // namespace trisect

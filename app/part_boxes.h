@@ -1,0 +1,22 @@
+// Where the parts of a scene's patches are.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "app/bake.h"
+
+namespace trisect {
+
+// In single precision, rounded outward.
+struct PartBox {
+  glm::vec3 lo;
+  glm::vec3 hi;
+};
+
+// For each of the scene's cages a box that contains the part, enlarged by OVERLAP, and BVH_SLACK of
+// the scene's extent around it; for a group of parts nothing of use.
+std::vector<PartBox> part_boxes(const BakedScene& scene);
+
+}  // namespace trisect

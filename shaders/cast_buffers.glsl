@@ -1,0 +1,17 @@
+// What the kernels that cast rays from a buffer are made for, and what they find bound.
+
+layout(constant_id = CONSTANT_SURFACE) const uint SURFACE = SURFACE_PHONG;
+layout(constant_id = CONSTANT_SHELL) const uint SHELL = SHELL_NORMAL;
+layout(constant_id = CONSTANT_GROUPS) const bool GROUPS = false;
+layout(constant_id = CONSTANT_SOLVER) const uint SOLVER = SOLVER_ROBUST;
+const bool AOVS = false;
+const bool COUNTS = true;
+
+layout(std140, binding = BINDING_PARAMS) uniform ParamsBlock { TraceParams params; };
+layout(std430, binding = BINDING_TRIANGLES) readonly restrict buffer TrianglesBlock {
+  Triangle triangles[];
+};
+layout(std430, binding = BINDING_CAGES) readonly restrict buffer CagesBlock { Cage cages[]; };
+layout(std430, binding = BINDING_RAYS) readonly restrict buffer RaysBlock { CastRay rays[]; };
+layout(std430, binding = BINDING_HITS) writeonly restrict buffer HitsBlock { CastHit hits[]; };
+layout(push_constant) uniform PushBlock { CastPush push; };

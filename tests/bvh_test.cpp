@@ -1,0 +1,138 @@
+// The tree over the parts' boxes: complete, conservative, in order.
+#include "app/bvh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "app/cage.h"
+#include "app/part_boxes.h"
+#include "app/widen.h"
+#include "tests/support/scenes.h"
+
+namespace trisect {
+namespace {
+
+constexpr uint32_t kChildren = 8;
+
+BakedScene scene_of(const std::string& asset, const SurfaceChoice& choice) {
+  return bake_with_cages(test::load_asset(asset), choice);
+}
+
+glm::vec3 lo_of(const BvhEntry& e) {
+  return {e.lo_x, e.lo_y, e.lo_z};
+}
+glm::vec3 hi_of(const BvhEntry& e) {
+  return {e.hi_x, e.hi_y, e.hi_z};
+}
+
+bool contains(const BvhEntry& e, const glm::vec3& lo, const glm::vec3& hi) {
+  return glm::all(glm::lessThanEqual(lo_of(e), lo)) &&
+         glm::all(glm::greaterThanEqual(hi_of(e), hi));
+}
+
+// What a ray goes through that every box lets in, in its order; every entry's box must contain
+// those below it.
+std::vector<uint32_t> parts_below(const std::vector<BvhEntry>& bvh, const BakedScene& scene) {
+  const std::vector<PartBox> boxes = part_boxes(scene);
+  std::vector<uint32_t> parts;
+  std::size_t visited = 0;
+  for (uint32_t item = 0; item != BVH_END && visited <= bvh.size(); ++visited) {
+    const BvhEntry& entry = bvh.at(item);
+    if (entry.link >= BVH_PART) {
+      const uint32_t part = entry.link - BVH_PART;
+      EXPECT_TRUE(contains(entry, boxes.at(part).lo, boxes.at(part).hi)) << part;
+      parts.push_back(part);
+      item = entry.next;
+    } else if (entry.link == BVH_NOTHING) {
+      item = entry.next;
+    } else {
+      for (uint32_t k = 0; k < kChildren; ++k) {
+        const BvhEntry& child = bvh.at(entry.link + k);
+        if (child.link == BVH_NOTHING) continue;
+        EXPECT_TRUE(contains(entry, lo_of(child), hi_of(child)));
+      }
+      item = entry.link;
+    }
+  }
+  EXPECT_EQ(visited, bvh.size());
+  return parts;
+}
+
+void expect_all_parts_once(const std::vector<BvhEntry>& bvh, const BakedScene& scene) {
+  std::vector<uint32_t> parts = parts_below(bvh, scene);
+  std::sort(parts.begin(), parts.end());
+  std::vector<uint32_t> expected;
+  for (uint32_t part = 0; part < scene.cages.size(); ++part) {
+    if (scene.cages[part].skip == 0) expected.push_back(part);
+  }
+  EXPECT_EQ(parts, expected);
+}
+
+TEST(Bvh, HoldsEveryPartOnce) {
+  for (const std::string& name : test::asset_names()) {
+    const BakedScene scene = scene_of(name, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
+    SCOPED_TRACE(name);
+    expect_all_parts_once(build_bvh(scene), scene);
+  }
+}
+
+TEST(Bvh, HoldsOnePatch) {
+  BakedScene scene = scene_of("sphere-20", {SURFACE_FLAT, 0.0, SHELL_NORMAL});
+  scene.cages.resize(1);
+  const std::vector<BvhEntry> bvh = build_bvh(scene);
+  EXPECT_EQ(bvh.size(), kChildren);
+  expect_all_parts_once(bvh, scene);
+}
+
+TEST(Bvh, HoldsPatchesThatLieInOnePlace) {
+  BakedScene scene = scene_of("sphere-20", {SURFACE_PHONG, 0.65, SHELL_NORMAL});
+  std::fill(scene.triangles.begin(), scene.triangles.end(), scene.triangles[0]);
+  scene.cages = bake_cages(scene);
+  expect_all_parts_once(build_bvh(scene), scene);
+}
+
+TEST(Bvh, BoxesContainTheSurface) {
+  for (const SurfaceChoice& choice : {SurfaceChoice{SURFACE_PHONG, 0.65, SHELL_NORMAL},
+                                      SurfaceChoice{SURFACE_PHONG, 0.65, SHELL_HEIGHT},
+                                      SurfaceChoice{SURFACE_SPHERE, 0.0, SHELL_NORMAL}}) {
+    const BakedScene scene = scene_of("saddle", choice);
+    const std::vector<PartBox> boxes = part_boxes(scene);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const Cage& cage = scene.cages[i];
+      if (cage.skip > 0) continue;
+      const in_double::Triangle tri = widen(scene.triangles[cage.triangle]);
+      constexpr int n = 8;
+      for (int a = 0; a <= n; ++a) {
+        for (int b = 0; a + b <= n; ++b) {
+          const glm::dvec3 l = glm::dvec3(n - a - b, a, b) / static_cast<double>(n);
+          const glm::dvec3 w = glm::dvec3(glm::vec3(cage.node)) + l * double{cage.node.w};
+          const glm::vec3 p(in_double::surface_point(shape_of(choice), tri, w));
+          EXPECT_TRUE(glm::all(glm::lessThanEqual(boxes[i].lo, p)) &&
+                      glm::all(glm::greaterThanEqual(boxes[i].hi, p)))
+              << i;
+        }
+      }
+    }
+  }
+}
+
+// Seen along the axes' diagonal the far corner's child comes last.
+TEST(Bvh, PutsChildrenInTheOrderOfOctants) {
+  const BakedScene scene = scene_of("sphere-320", {SURFACE_PHONG, 0.65, SHELL_NORMAL});
+  const std::vector<BvhEntry> bvh = build_bvh(scene);
+  const auto along = [&](uint32_t k) {
+    const glm::vec3 middle = lo_of(bvh[k]) + hi_of(bvh[k]);
+    return middle.x + middle.y + middle.z;
+  };
+  ASSERT_NE(bvh[0].link, BVH_NOTHING);
+  ASSERT_NE(bvh[kChildren - 1].link, BVH_NOTHING);
+  for (uint32_t k = 1; k + 1 < kChildren; ++k) {
+    if (bvh[k].link == BVH_NOTHING) continue;
+    EXPECT_LT(along(0), along(k));
+    EXPECT_LT(along(k), along(kChildren - 1));
+  }
+}
+
+}  // namespace
+}  // namespace trisect
