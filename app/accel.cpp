@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/error.h"
+#include "app/workgroups.h"
 
 namespace trisect {
 namespace {
@@ -26,7 +27,12 @@ const char* accel_name(Accel accel) {
 Accel chosen_accel(const RenderOptions& options, Backend backend, std::size_t parts) {
   const bool any = backend == Backend::vulkan && options.solver == SOLVER_ROBUST;
   const bool tiles = parts <= kMostParts;
-  if (!options.accel) return any ? (tiles ? Accel::tiles : Accel::bvh) : Accel::list;
+  if (!options.accel) {
+    if (!any) return Accel::list;
+    const std::size_t tiles_of_image =
+        std::size_t{tiles_across(options.width)} * tiles_across(options.height);
+    return tiles && parts <= tiles_of_image ? Accel::tiles : Accel::bvh;
+  }
   if (*options.accel != Accel::list && !any) {
     throw UsageError(fmt::format("--accel {}: it needs --backend vulkan and --solver robust.",
                                  accel_name(*options.accel)));

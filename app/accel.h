@@ -10,8 +10,9 @@ namespace trisect {
 
 const char* accel_name(Accel accel);
 
-// What the options ask for, or, if they leave it open, the fastest one that there is for a scene of
-// so many parts: tiles, or else the tree, wherever they can be had. Throws UsageError if what is asked for cannot be.
+// What the options ask for, or, if they leave it open, what is likely to be the fastest for a scene
+// of so many parts: tiles, or the tree if the image has fewer tiles than the scene has parts,
+// wherever they can be had. Throws UsageError if what is asked for cannot be.
 Accel chosen_accel(const RenderOptions& options, Backend backend, std::size_t parts);
 
 }  // namespace trisect

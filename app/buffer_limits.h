@@ -3,11 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 
 #include "app/bake.h"
 
 namespace trisect {
+
+inline constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 
 // All of them throw gpu::Error, naming the device, if a buffer of `limit` bytes is too small.
 

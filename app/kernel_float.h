@@ -39,9 +39,9 @@ struct Kernel {
 #include "shaders/bisect.glsl"
 #include "shaders/cage.glsl"
 // The order is the kernel's.
+#include "shaders/rays.glsl"
 #include "shaders/robust.glsl"
 #include "shaders/shading.glsl"
-#include "shaders/rays.glsl"
 // Here a ray's tile means nothing.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-parameter"

@@ -11,9 +11,12 @@ namespace {
 #include "cast_rays.spv.h"
 #include "fill_sky.spv.h"
 #include "search_packets.spv.h"
+#include "search_packets_at.spv.h"
 #include "trace_bvh.spv.h"
+#include "trace_bvh_at.spv.h"
 #include "trace_list.spv.h"
 #include "trace_packets.spv.h"
+#include "trace_packets_at.spv.h"
 #include "trace_tiles.spv.h"
 #include "trace_undecided.spv.h"
 #include "view_parts.spv.h"
@@ -31,8 +34,11 @@ const std::span<const uint32_t> kFillSkySpirv(fill_sky_spirv);
 const std::span<const uint32_t> kTraceTilesSpirv(trace_tiles_spirv);
 const std::span<const uint32_t> kTraceUndecidedSpirv(trace_undecided_spirv);
 const std::span<const uint32_t> kTracePacketsSpirv(trace_packets_spirv);
+const std::span<const uint32_t> kTracePacketsAtSpirv(trace_packets_at_spirv);
 const std::span<const uint32_t> kSearchPacketsSpirv(search_packets_spirv);
+const std::span<const uint32_t> kSearchPacketsAtSpirv(search_packets_at_spirv);
 const std::span<const uint32_t> kTraceBvhSpirv(trace_bvh_spirv);
+const std::span<const uint32_t> kTraceBvhAtSpirv(trace_bvh_at_spirv);
 const std::span<const uint32_t> kCastRaysSpirv(cast_rays_spirv);
 const std::span<const uint32_t> kCastByBvhSpirv(cast_by_bvh_spirv);
 
@@ -53,7 +59,8 @@ gpu::KernelInterface frame_interface() {
            {BINDING_TILE_PARTS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {BINDING_TILE_ORDER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {BINDING_TILES_SEEN, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-           {BINDING_BVH, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}},
+           {BINDING_BVH, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+           {BINDING_ADDRESSES, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER}},
           sizeof(TilePush)};
 }
 

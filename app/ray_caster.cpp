@@ -14,11 +14,6 @@ namespace {
 constexpr std::size_t kBatch = std::size_t{1} << 18U;
 constexpr std::size_t kStagingBytes = kBatch * sizeof(CastRay);
 
-template <typename T>
-std::size_t bytes_for(const std::vector<T>& items) {
-  return std::max<std::size_t>(items.size(), 1) * sizeof(T);
-}
-
 }  // namespace
 
 std::shared_ptr<const gpu::Kernel> RayCaster::kernel_for(const gpu::Device& device,
@@ -41,23 +36,15 @@ RayCaster::RayCaster(const gpu::Device& device, const BakedScene& scene, const T
       commands_(device),
       staging_(device, kStagingBytes),
       params_(device, sizeof(TraceParams), gpu::Memory::device, "trace parameters"),
-      triangles_(device, bytes_for(scene.triangles), gpu::Memory::device, "triangles"),
-      cages_(device, bytes_for(scene.cages), gpu::Memory::device, "cages"),
-      bvh_(device, bytes_for(scene.bvh), gpu::Memory::device, "tree"),
+      scene_(device, scene, device.limits().maxStorageBufferRange, false),
       rays_(device, kBatch * sizeof(CastRay), gpu::Memory::device, "rays"),
       hits_(device, kBatch * sizeof(CastHit), gpu::Memory::device, "hits"),
       queue_(device, kBatch, steps),
       bound_(device, *kernel_,
-             {&params_, &triangles_, &cages_, &rays_, &hits_, &queue_.paused(), &queue_.queued(),
-              &bvh_}) {
+             {&params_, &scene_.triangles(), &scene_.cages(), &rays_, &hits_, &queue_.paused(),
+              &queue_.queued(), &scene_.bvh()}) {
   staging_.upload(commands_, std::as_bytes(std::span(&params, 1)), params_);
-  staging_.upload(commands_, std::as_bytes(std::span(scene.triangles)), triangles_);
-  if (!scene.cages.empty()) {
-    staging_.upload(commands_, std::as_bytes(std::span(scene.cages)), cages_);
-  }
-  if (!scene.bvh.empty()) {
-    staging_.upload(commands_, std::as_bytes(std::span(scene.bvh)), bvh_);
-  }
+  scene_.upload(staging_, commands_, scene);
 }
 
 std::vector<CastHit> RayCaster::cast(std::span<const CastRay> rays,

@@ -8,6 +8,7 @@
 
 #include "app/bake.h"
 #include "app/ray_queue.h"
+#include "app/scene_buffers.h"
 #include "app/shared.h"
 #include "vk/commands.h"
 
@@ -39,9 +40,7 @@ class RayCaster {
   gpu::Commands commands_;
   gpu::Staging staging_;
   gpu::Buffer params_;
-  gpu::Buffer triangles_;
-  gpu::Buffer cages_;
-  gpu::Buffer bvh_;
+  SceneBuffers scene_;
   gpu::Buffer rays_;
   gpu::Buffer hits_;
   RayQueue queue_;

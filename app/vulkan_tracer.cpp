@@ -41,25 +41,27 @@ struct NamedKernel {
 };
 
 // What traces new rays, then what goes on with those that it leaves, and so on.
-std::vector<NamedKernel> kernel_names(const gpu::Device& device, Accel accel) {
+std::vector<NamedKernel> kernel_names(const gpu::Device& device, Accel accel, bool by_address) {
   switch (accel) {
     case Accel::tiles:
       return {{kTraceTilesSpirv, "trace_tiles"}, {kTraceUndecidedSpirv, "trace_undecided"}};
-    case Accel::bvh:
+    case Accel::bvh: {
+      const NamedKernel alone{by_address ? kTraceBvhAtSpirv : kTraceBvhSpirv, "trace_bvh"};
       // A subgroup tests the eight children of a node at once.
-      if (device.subgroup_size() < 8) return {{kTraceBvhSpirv, "trace_bvh"}};
-      return {{kTracePacketsSpirv, "trace_packets"},
-              {kSearchPacketsSpirv, "search_packets"},
-              {kTraceBvhSpirv, "trace_bvh"}};
+      if (device.subgroup_size() < 8) return {alone};
+      return {{by_address ? kTracePacketsAtSpirv : kTracePacketsSpirv, "trace_packets"},
+              {by_address ? kSearchPacketsAtSpirv : kSearchPacketsSpirv, "search_packets"},
+              alone};
+    }
     default:
       return {{kTraceListSpirv, "trace_list"}};
   }
 }
 
 std::vector<gpu::Kernel> kernels_for(const gpu::Device& device, const BakedScene& scene,
-                                     const KernelChoice& choice) {
+                                     const KernelChoice& choice, bool by_address) {
   std::vector<gpu::Kernel> kernels;
-  for (const NamedKernel& kernel : kernel_names(device, choice.accel)) {
+  for (const NamedKernel& kernel : kernel_names(device, choice.accel, by_address)) {
     kernels.emplace_back(device, kernel.spirv, frame_interface(), constants_of(scene, choice),
                          kernel.name);
   }
@@ -77,16 +79,11 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
       buffer_limit_(std::min<std::size_t>(buffer_limit, device.limits().maxStorageBufferRange)),
       band_rows_(rows_in_a_band(device.report().name, buffer_limit_, width, height, choice.aovs)),
       tiles_(lists_for(device, scene, choice, width, band_rows_)),
-      kernels_(kernels_for(device, scene, choice)),
+      scene_(device, scene, buffer_limit_, choice.accel == Accel::bvh),
+      kernels_(kernels_for(device, scene, choice, scene_.by_address())),
       commands_(device),
       staging_(device, kStagingBytes),
       params_(device, sizeof(TraceParams), gpu::Memory::device, "trace parameters"),
-      triangles_(device, triangle_bytes(device.report().name, buffer_limit_, scene),
-                 gpu::Memory::device, "triangles"),
-      cages_(device, cage_bytes(device.report().name, buffer_limit_, scene), gpu::Memory::device,
-             "cages"),
-      bvh_(device, bvh_bytes(device.report().name, buffer_limit_, scene), gpu::Memory::device,
-           "tree"),
       colors_(device, std::size_t{width} * band_rows_ * sizeof(vec4), gpu::Memory::device,
               "colors"),
       // A binding wants a buffer; without AOVs nothing is written to it.
@@ -97,18 +94,13 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
       queue_(device, groups_of_band(width, 0, band_rows_).most() * kGroupRays),
       unused_(device, sizeof(vec4), gpu::Memory::device, "unused"),
       bound_(device, kernels_[0],
-             {&params_, &triangles_, &colors_, &aovs_buffer_, &cages_, &queue_.paused(),
-              &queue_.queued(), tiles_ ? &tiles_->view_parts() : &unused_,
+             {&params_, &scene_.triangles(), &colors_, &aovs_buffer_, &scene_.cages(),
+              &queue_.paused(), &queue_.queued(), tiles_ ? &tiles_->view_parts() : &unused_,
               tiles_ ? &tiles_->counts() : &unused_, tiles_ ? &tiles_->parts() : &unused_,
-              tiles_ ? &tiles_->order() : &unused_, tiles_ ? &tiles_->seen() : &unused_, &bvh_}) {
+              tiles_ ? &tiles_->order() : &unused_, tiles_ ? &tiles_->seen() : &unused_,
+              &scene_.bvh(), &scene_.addresses()}) {
   const Stopwatch watch;
-  staging_.upload(commands_, std::as_bytes(std::span(scene.triangles)), triangles_);
-  if (!scene.cages.empty()) {
-    staging_.upload(commands_, std::as_bytes(std::span(scene.cages)), cages_);
-  }
-  if (!scene.bvh.empty()) {
-    staging_.upload(commands_, std::as_bytes(std::span(scene.bvh)), bvh_);
-  }
+  scene_.upload(staging_, commands_, scene);
   upload_ms_ = watch.milliseconds();
 }
 

@@ -11,6 +11,7 @@
 #include "app/frame_time.h"
 #include "app/kernel_choice.h"
 #include "app/ray_queue.h"
+#include "app/scene_buffers.h"
 #include "app/shared.h"
 #include "app/submit_budget.h"
 #include "app/tile_lists.h"
@@ -45,13 +46,11 @@ class VulkanTracer {
   std::size_t buffer_limit_;
   uint32_t band_rows_;
   std::optional<TileLists> tiles_;
+  SceneBuffers scene_;
   std::vector<gpu::Kernel> kernels_;  // for new rays, then for those that pause
   gpu::Commands commands_;
   gpu::Staging staging_;
   gpu::Buffer params_;
-  gpu::Buffer triangles_;
-  gpu::Buffer cages_;
-  gpu::Buffer bvh_;
   gpu::Buffer colors_;
   gpu::Buffer aovs_buffer_;
   RayQueue queue_;

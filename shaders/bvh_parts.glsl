@@ -1,7 +1,5 @@
 // The parts that a ray goes through: those in whose boxes it comes, found by the tree over them.
 
-layout(std430, binding = BINDING_BVH) readonly restrict buffer BvhBlock { BvhEntry bvh[]; };
-
 bool no_parts_left(PixelRay ray, uint item) { return item == BVH_END; }
 
 uint item_after(uint item) { return bvh[item].next; }

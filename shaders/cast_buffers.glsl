@@ -8,10 +8,7 @@ const bool AOVS = false;
 const bool COUNTS = true;
 
 layout(std140, binding = BINDING_PARAMS) uniform ParamsBlock { TraceParams params; };
-layout(std430, binding = BINDING_TRIANGLES) readonly restrict buffer TrianglesBlock {
-  Triangle triangles[];
-};
-layout(std430, binding = BINDING_CAGES) readonly restrict buffer CagesBlock { Cage cages[]; };
+#include "scene_buffers.glsl"
 layout(std430, binding = BINDING_RAYS) readonly restrict buffer RaysBlock { CastRay rays[]; };
 layout(std430, binding = BINDING_HITS) writeonly restrict buffer HitsBlock { CastHit hits[]; };
 layout(push_constant) uniform PushBlock { CastPush push; };

@@ -1,6 +1,7 @@
 #version 450
 // Rays from a buffer, whatever they are aimed at, against those whose boxes a tree finds.
 #extension GL_GOOGLE_include_directive : require
+#define TRISECT_BVH
 #include "language.h"
 #include "shared.h"
 #include "solvers.glsl"

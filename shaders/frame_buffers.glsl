@@ -19,10 +19,7 @@ layout(push_constant) uniform PushBlock { TilePush push; };
 #endif
 
 layout(std140, binding = BINDING_PARAMS) uniform ParamsBlock { TraceParams params; };
-layout(std430, binding = BINDING_TRIANGLES) readonly restrict buffer TrianglesBlock {
-  Triangle triangles[];
-};
-layout(std430, binding = BINDING_CAGES) readonly restrict buffer CagesBlock { Cage cages[]; };
+#include "scene_buffers.glsl"
 
 // A pixel of a tile: invocations next to each other see blocks of 4 x 2 pixels, then 8 x 2, 8 x 4.
 uvec2 pixel_in_tile(uint i) { return uvec2((i & 3u) | ((i >> 1) & 4u), ((i >> 2) & 1u) | ((i >> 3) & 6u)); }

@@ -4,9 +4,6 @@
 // 2006, "Geometric and arithmetic culling methods for entire ray packets"), each invocation with a child of its own:
 // of eight at least.
 
-layout(std430, binding = BINDING_TRIANGLES) readonly restrict buffer TriangleWordsBlock { vec4 triangle_words[]; };
-layout(std430, binding = BINDING_CAGES) readonly restrict buffer CageWordsBlock { vec4 cage_words[]; };
-
 const uint CHILDREN = 8u;
 const uint CAGE_WORDS = 6u;
 const uint TRIANGLE_WORDS = 12u;

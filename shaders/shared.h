@@ -70,6 +70,18 @@ struct ViewPart {
   vec4 sizes;  // x: Cage::node.w; y: the grain of a ray down the axis
 };
 
+// Where buffers are that are too large to be bound: low and high half of their addresses.
+struct Addresses {
+  uint triangles_low;
+  uint triangles_high;
+  uint cages_low;
+  uint cages_high;
+  uint bvh_low;
+  uint bvh_high;
+  uint padding0;
+  uint padding1;
+};
+
 // One frame's constants. Rays leave the eye; near(x, y) = eye + ray_corner + x ray_dx + y ray_dy is
 // the point of the near plane seen through image position (x, y) in pixels, y down, (0, 0) the top
 // left corner.
@@ -223,6 +235,7 @@ const uint SOLVER_ROBUST = 1u;
 #define BINDING_TILE_ORDER 13
 #define BINDING_TILES_SEEN 14
 #define BINDING_BVH 15
+#define BINDING_ADDRESSES 16
 
 // Specialisation constants.
 #define CONSTANT_SURFACE 0

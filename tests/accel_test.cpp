@@ -11,6 +11,7 @@
 #include "app/vulkan_tracer.h"
 #include "tests/support/gpu.h"
 #include "tests/support/scenes.h"
+#include "vk/result.h"
 
 namespace trisect {
 namespace {
@@ -117,6 +118,18 @@ TEST_F(Acceleration, WorksInEveryBandOfAnImage) {
   // Eight rows of 67 pixels of 48 bytes: seven bands.
   constexpr std::size_t limit = 26000;
   expect_all_equal(scene, settings, "", limit);
+}
+
+// Buffers that may not be bound, here for a limit of less than the model takes.
+TEST_F(Acceleration, ReachesLargeBuffersByTheirAddresses) {
+  BakedScene scene =
+      bake_with_cages(test::load_asset("teapot"), {SURFACE_PHONG, 0.65, SHELL_NORMAL});
+  scene.bvh = build_bvh(scene);
+  const TraceSettings settings = small(test::load_asset("teapot"), scene);
+  const std::size_t limit = scene.triangles.size() * sizeof(Triangle) - 1;
+  ASSERT_TRUE(test::validated_device().has_addresses());
+  expect_equal(trace(scene, settings, Accel::list), trace(scene, settings, Accel::bvh, limit), "");
+  EXPECT_THROW(trace(scene, settings, Accel::list, limit), gpu::Error);
 }
 
 }  // namespace

@@ -57,8 +57,9 @@ const spirv_cross::Resource& with_binding(
 Held bound_to(uint32_t binding, std::span<const uint32_t> spirv = kTraceListSpirv) {
   const Compiler compiler = reflect(spirv);
   const auto resources = compiler.get_shader_resources();
-  const auto& buffers =
-      binding == BINDING_PARAMS ? resources.uniform_buffers : resources.storage_buffers;
+  const auto& buffers = binding == BINDING_PARAMS || binding == BINDING_ADDRESSES
+                            ? resources.uniform_buffers
+                            : resources.storage_buffers;
   return held_by(compiler, with_binding(compiler, buffers, binding));
 }
 
@@ -115,6 +116,19 @@ TEST(Layout, BvhEntry) {
                                    {"hi_y", offsetof(BvhEntry, hi_y)},
                                    {"hi_z", offsetof(BvhEntry, hi_z)},
                                    {"next", offsetof(BvhEntry, next)}}));
+}
+
+TEST(Layout, Addresses) {
+  const Held held = bound_to(BINDING_ADDRESSES, kTraceBvhAtSpirv);
+  EXPECT_EQ(held.stride, sizeof(Addresses));
+  EXPECT_EQ(held.offsets, (Offsets{{"triangles_low", offsetof(Addresses, triangles_low)},
+                                   {"triangles_high", offsetof(Addresses, triangles_high)},
+                                   {"cages_low", offsetof(Addresses, cages_low)},
+                                   {"cages_high", offsetof(Addresses, cages_high)},
+                                   {"bvh_low", offsetof(Addresses, bvh_low)},
+                                   {"bvh_high", offsetof(Addresses, bvh_high)},
+                                   {"padding0", offsetof(Addresses, padding0)},
+                                   {"padding1", offsetof(Addresses, padding1)}}));
 }
 
 TEST(Layout, TraceParams) {
@@ -181,7 +195,8 @@ TEST(Layout, InterfaceIsTheKernels) {
   std::map<uint32_t, VkDescriptorType> in_kernels;
   for (const auto& spirv :
        {kTraceListSpirv, kViewPartsSpirv, kBinPartsSpirv, kFillSkySpirv, kTraceTilesSpirv,
-        kTraceUndecidedSpirv, kTracePacketsSpirv, kSearchPacketsSpirv, kTraceBvhSpirv}) {
+        kTraceUndecidedSpirv, kTracePacketsSpirv, kSearchPacketsSpirv, kTraceBvhSpirv,
+        kTracePacketsAtSpirv, kSearchPacketsAtSpirv, kTraceBvhAtSpirv}) {
     const Compiler kernel = reflect(spirv);
     const auto held = kernel.get_shader_resources();
     for (const auto& buffer : held.uniform_buffers) {

@@ -135,8 +135,11 @@ TEST_F(Program, PicksAnAccelerationAndSaysWhich) {
     std::ifstream file(folder_ / "s.json");
     return nlohmann::json::parse(file)["accel"].get<std::string>();
   };
-  EXPECT_EQ(accel({}), "tiles");
-  EXPECT_EQ(accel({"--accel", "auto"}), "tiles");
+  // The image has fewer tiles than the model has patches, then more.
+  EXPECT_EQ(accel({}), "bvh");
+  EXPECT_EQ(accel({"--size", "240x160"}), "tiles");
+  EXPECT_EQ(accel({"--accel", "auto", "--size", "240x160"}), "tiles");
+  EXPECT_EQ(accel({"--accel", "tiles"}), "tiles");
   EXPECT_EQ(accel({"--accel", "list"}), "list");
   EXPECT_EQ(accel({"--accel", "bvh"}), "bvh");
   EXPECT_EQ(accel({"--preset", "thesis"}), "list");

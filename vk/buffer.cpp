@@ -10,6 +10,7 @@ Buffer::Buffer(const Device& device, std::size_t size, Memory memory, const std:
   info.size = size;
   info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
                VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+  if (memory == Memory::addressed) info.usage |= VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
   info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
   const auto require = [&](VkResult result) {
     if (result == VK_SUCCESS) return;
@@ -23,8 +24,11 @@ Buffer::Buffer(const Device& device, std::size_t size, Memory memory, const std:
   vkGetBufferMemoryRequirements(device.get(), buffer_.get(), &needs);
   VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
   allocation.allocationSize = needs.size;
+  VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
+  flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
+  if (memory == Memory::addressed) allocation.pNext = &flags;
   allocation.memoryTypeIndex =
-      memory == Memory::device
+      memory != Memory::host
           ? device.memory_type(needs.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)
           : device.memory_type(
                 needs.memoryTypeBits,
@@ -33,6 +37,7 @@ Buffer::Buffer(const Device& device, std::size_t size, Memory memory, const std:
   require(vkAllocateMemory(device.get(), &allocation, nullptr, memory_.fill(device.get())));
   device.name(VK_OBJECT_TYPE_DEVICE_MEMORY, memory_.get(), name);
   TRISECT_VK(vkBindBufferMemory(device.get(), buffer_.get(), memory_.get(), 0));
+  if (memory == Memory::addressed) address_ = device.address_of(buffer_.get());
   if (memory == Memory::host) {
     void* address = nullptr;
     TRISECT_VK(vkMapMemory(device.get(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &address));

@@ -12,8 +12,9 @@
 namespace trisect::gpu {
 
 enum class Memory {
-  device,  // fast for the device; reached from the host through Staging
-  host,    // mapped, coherent, cached where the device offers that
+  device,     // fast for the device; reached from the host through Staging
+  addressed,  // the same, and kernels reach it by its address, of whatever size it is
+  host,       // mapped, coherent, cached where the device offers that
 };
 
 class Buffer {
@@ -23,6 +24,8 @@ class Buffer {
   Buffer(const Device& device, std::size_t size, Memory memory, const std::string& name);
 
   [[nodiscard]] VkBuffer get() const { return buffer_.get(); }
+  // Of an addressed buffer.
+  [[nodiscard]] VkDeviceAddress address() const { return address_; }
   [[nodiscard]] std::size_t size() const { return size_; }
 
   // The mapped bytes of a buffer in host memory, empty for one in device memory.
@@ -33,6 +36,7 @@ class Buffer {
   Owned<VkDeviceMemory, vkFreeMemory> memory_;
   Owned<VkBuffer, vkDestroyBuffer> buffer_;
   std::size_t size_ = 0;
+  VkDeviceAddress address_ = 0;
   std::span<std::byte> mapped_;
 };
 

@@ -1,10 +1,36 @@
 #include "vk/device.h"
 
+#include <algorithm>
+#include <string_view>
 #include <vector>
 
 #include "vk/result.h"
 
 namespace trisect::gpu {
+
+namespace {
+
+const char* const kAddressExtension = VK_KHR_BUFFER_DEVICE_ADDRESS_EXTENSION_NAME;
+
+bool can_address_buffers(VkPhysicalDevice device) {
+  uint32_t count = 0;
+  TRISECT_VK(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr));
+  std::vector<VkExtensionProperties> extensions(count);
+  TRISECT_VK(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()));
+  const bool known =
+      std::any_of(extensions.begin(), extensions.end(), [](const VkExtensionProperties& extension) {
+        return std::string_view(extension.extensionName) == kAddressExtension;
+      });
+  if (!known) return false;
+  VkPhysicalDeviceBufferDeviceAddressFeaturesKHR addresses{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES_KHR};
+  VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+  features.pNext = &addresses;
+  vkGetPhysicalDeviceFeatures2(device, &features);
+  return addresses.bufferDeviceAddress == VK_TRUE;
+}
+
+}  // namespace
 
 Device::Device(const Instance& instance, const std::string& request) {
   const std::vector<DeviceReport> reports = instance.reports();
@@ -41,16 +67,35 @@ Device::Device(const Instance& instance, const std::string& request) {
   VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
+  const bool addresses = can_address_buffers(physical);
+  VkPhysicalDeviceBufferDeviceAddressFeaturesKHR address_features{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES_KHR};
+  address_features.bufferDeviceAddress = VK_TRUE;
+  if (addresses) {
+    info.pNext = &address_features;
+    info.enabledExtensionCount = 1;
+    info.ppEnabledExtensionNames = &kAddressExtension;
+  }
   TRISECT_VK(vkCreateDevice(physical, &info, nullptr, &device_));
   vkGetDeviceQueue(device_, family_, 0, &queue_);
   if (instance.can_name_objects()) {
     set_name_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
         vkGetDeviceProcAddr(device_, "vkSetDebugUtilsObjectNameEXT"));
   }
+  if (addresses) {
+    address_of_ = reinterpret_cast<PFN_vkGetBufferDeviceAddressKHR>(
+        vkGetDeviceProcAddr(device_, "vkGetBufferDeviceAddressKHR"));
+  }
 }
 
 Device::~Device() {
   vkDestroyDevice(device_, nullptr);
+}
+
+VkDeviceAddress Device::address_of(VkBuffer buffer) const {
+  VkBufferDeviceAddressInfo info{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO};
+  info.buffer = buffer;
+  return address_of_(device_, &info);
 }
 
 uint32_t Device::memory_type(uint32_t allowed, VkMemoryPropertyFlags required,

@@ -31,6 +31,11 @@ class Device {
   // like.
   [[nodiscard]] uint32_t subgroup_size() const { return subgroup_size_; }
 
+  // Whether kernels may reach buffers by their addresses.
+  [[nodiscard]] bool has_addresses() const { return address_of_ != nullptr; }
+  // Only if has_addresses().
+  [[nodiscard]] VkDeviceAddress address_of(VkBuffer buffer) const;
+
   // Bits of a timestamp that count; 0 if the queue cannot write timestamps.
   [[nodiscard]] uint32_t timestamp_bits() const { return timestamp_bits_; }
 
@@ -57,6 +62,7 @@ class Device {
   VkPhysicalDeviceLimits limits_{};
   VkPhysicalDeviceMemoryProperties memory_{};
   PFN_vkSetDebugUtilsObjectNameEXT set_name_ = nullptr;
+  PFN_vkGetBufferDeviceAddressKHR address_of_ = nullptr;
 };
 
 }  // namespace trisect::gpu

@@ -1,5 +1,6 @@
 // Writes the project's models as OBJ files into a folder: make-assets FOLDER [NAME ...]; all, or
-// those named.
+// those named. Large ones are made by name only: sphere-1280 to sphere-5242880, each of four times
+// the triangles of the one before, and teapot-16k, -65k, -260k, -1m and -4m.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -32,6 +33,30 @@ const std::map<std::string, std::function<Model()>> kModels{
     {"saddle", assets::saddle},
 };
 
+// Those that are only made by name.
+std::map<std::string, std::function<Model()>> large_models() {
+  std::map<std::string, std::function<Model()>> models;
+  int triangles = 1280;
+  for (int divisions = 3; divisions <= 9; ++divisions, triangles *= 4) {
+    models["sphere-" + std::to_string(triangles)] = [=] { return assets::sphere(divisions); };
+  }
+  int finer = 4;
+  for (const char* name : {"teapot-16k", "teapot-65k", "teapot-260k", "teapot-1m", "teapot-4m"}) {
+    models[name] = [=] { return assets::teapot(assets::divided(assets::kTeapot1016, finer)); };
+    finer *= 2;
+  }
+  return models;
+}
+
+const std::function<Model()>& maker_of(const std::string& name) {
+  static const std::map<std::string, std::function<Model()>> large = large_models();
+  for (const auto* models : {&kModels, &large}) {
+    const auto entry = models->find(name);
+    if (entry != models->end()) return entry->second;
+  }
+  throw std::runtime_error("there is no model called " + name);
+}
+
 int run(const std::vector<std::string>& arguments) {
   if (arguments.empty()) {
     std::fputs("usage: make-assets FOLDER [NAME ...]\n", stderr);
@@ -44,11 +69,10 @@ int run(const std::vector<std::string>& arguments) {
     for (const auto& [name, make] : kModels) names.push_back(name);
   }
   for (const std::string& name : names) {
-    const auto entry = kModels.find(name);
-    if (entry == kModels.end()) throw std::runtime_error("there is no model called " + name);
+    const std::function<Model()>& make = maker_of(name);
     const std::filesystem::path path = folder / (name + ".obj");
     std::ofstream file(path, std::ios::binary);
-    file << entry->second().obj();
+    file << make().obj();
     file.close();
     if (!file) throw std::runtime_error(path.string() + " cannot be written");
   }

@@ -126,6 +126,13 @@ void add_patch(Model& model, const Patch& patch, int columns, int rows) {
 
 }  // namespace
 
+TeapotDivisions divided(const TeapotDivisions& d, int times) {
+  return {d.quarter * times,      d.rim * times,           d.upper_body * times,
+          d.lower_body * times,   d.knob * times,          d.lid * times,
+          d.bottom * times,       d.handle_around * times, d.handle_along * times,
+          d.spout_around * times, d.spout_along * times};
+}
+
 Model teapot(const TeapotDivisions& d) {
   Model model("Newell's teapot");
   const std::array<std::pair<const Profile*, int>, 6> turns{{{&kRim, d.rim},

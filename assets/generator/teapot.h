@@ -19,6 +19,9 @@ constexpr TeapotDivisions kTeapot304{2, 2, 2, 3, 3, 2, 2, 2, 3, 2, 3};
 constexpr TeapotDivisions kTeapot1016{4, 2, 4, 4, 3, 3, 2, 3, 9, 4, 8};
 constexpr TeapotDivisions kTeapot4000{8, 4, 8, 8, 6, 6, 4, 6, 18, 7, 16};
 
+// Every number of them so many times.
+TeapotDivisions divided(const TeapotDivisions& divisions, int times);
+
 // The 32 bicubic Bezier patches with y up, standing on y = 0, with their exact normals. The parts
 // (lid, rim and body with bottom, handle, spout) are open and only touch or interpenetrate, as
 // Newell designed them.

@@ -1,0 +1,40 @@
+// A baked scene in the memory of a Vulkan device.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "app/bake.h"
+#include "vk/buffer.h"
+#include "vk/commands.h"
+
+namespace trisect {
+
+class SceneBuffers {
+ public:
+  // limit: the most bytes of a buffer that is bound. If one of the scene's has more and the kernels
+  // have a variant for that, `addressable`, all of them are reached by their addresses. Throws
+  // gpu::Error, naming the device, if it cannot hold the scene.
+  SceneBuffers(const gpu::Device& device, const BakedScene& scene, std::size_t limit,
+               bool addressable);
+
+  void upload(gpu::Staging& staging, gpu::Commands& commands, const BakedScene& scene);
+
+  [[nodiscard]] bool by_address() const { return by_address_; }
+
+  // What kernels bind as BINDING_TRIANGLES, BINDING_CAGES, BINDING_BVH and BINDING_ADDRESSES.
+  [[nodiscard]] const gpu::Buffer& triangles() const { return by_address_ ? unused_ : triangles_; }
+  [[nodiscard]] const gpu::Buffer& cages() const { return by_address_ ? unused_ : cages_; }
+  [[nodiscard]] const gpu::Buffer& bvh() const { return by_address_ ? unused_ : bvh_; }
+  [[nodiscard]] const gpu::Buffer& addresses() const { return addresses_; }
+
+ private:
+  bool by_address_;
+  gpu::Buffer triangles_;
+  gpu::Buffer cages_;
+  gpu::Buffer bvh_;
+  gpu::Buffer addresses_;
+  gpu::Buffer unused_;
+};
+
+}  // namespace trisect
