@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/error.h"
+#include "app/supersampling.h"
 #include "app/workgroups.h"
 
 namespace trisect {
@@ -29,8 +30,9 @@ Accel chosen_accel(const RenderOptions& options, Backend backend, std::size_t pa
   const bool tiles = parts <= kMostParts;
   if (!options.accel) {
     if (!any) return Accel::list;
+    const uint32_t side = samples_across(options.spp);
     const std::size_t tiles_of_image =
-        std::size_t{tiles_across(options.width)} * tiles_across(options.height);
+        std::size_t{tiles_across(options.width * side)} * tiles_across(options.height * side);
     return tiles && parts <= tiles_of_image ? Accel::tiles : Accel::bvh;
   }
   if (*options.accel != Accel::list && !any) {

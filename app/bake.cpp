@@ -10,6 +10,7 @@
 #include "app/error.h"
 #include "app/parallel_rows.h"
 #include "app/patch_bounds.h"
+#include "app/rounding.h"
 
 namespace trisect {
 namespace {
@@ -18,13 +19,6 @@ using glm::dvec3;
 
 vec4 rounded(const dvec3& v, double w = 0.0) {
   return {glm::vec3(v), static_cast<float>(w)};
-}
-
-float rounded_up(double x) {
-  const auto nearest = static_cast<float>(x);
-  return static_cast<double>(nearest) < x
-             ? std::nextafter(nearest, std::numeric_limits<float>::infinity())
-             : nearest;
 }
 
 // Curvature of the sphere through P_i with normal N_i that also passes through P_i + edge.

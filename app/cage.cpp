@@ -10,6 +10,7 @@
 #include "app/kernel_float.h"
 #include "app/parallel_rows.h"
 #include "app/raise.h"
+#include "app/rounding.h"
 #include "app/surface_double.h"
 #include "app/widen.h"
 
@@ -44,7 +45,7 @@ struct Patch {
 };
 
 struct Fit {
-  Quadratic q;
+  CageQuadratic q;
   double stray = 0.0;          // of S, a length
   double tangent_stray = 0.0;  // of S_u and S_v
   double bend = 0.0;           // Cage::bend
@@ -58,9 +59,9 @@ Patch patch_of(const SurfaceChoice& choice, const Triangle& single, in_float::Ke
 
 // The quadratic with these values at the part's corners and at the middles of its edges.
 template <typename Value>
-Quadratic through(const SubTriangle& part, Value&& value) {
+CageQuadratic through(const SubTriangle& part, Value&& value) {
   const auto at = [&](const dvec3& l) { return value(part.origin + l * part.size); };
-  Quadratic local;
+  CageQuadratic local;
   for (int k = 0; k < 3; ++k) local.corner[k] = at(corner_weights(k));
   for (int k = 0; k < 3; ++k) {
     const int i = k == 2 ? 0 : k;
@@ -70,7 +71,7 @@ Quadratic through(const SubTriangle& part, Value&& value) {
   }
   // In the weights of the whole: the blossom does not mind that the corners lie outside the part.
   const auto inside = [&](int k) { return (corner_weights(k) - part.origin) / part.size; };
-  Quadratic whole;
+  CageQuadratic whole;
   for (int k = 0; k < 3; ++k) whole.corner[k] = local.blossom(inside(k), inside(k));
   whole.edge = {local.blossom(inside(0), inside(1)), local.blossom(inside(1), inside(2)),
                 local.blossom(inside(0), inside(2))};
@@ -89,7 +90,7 @@ struct Sample {
   glm::dvec2 gradient;
 };
 
-Sample sample(const Patch& patch, const Quadratic& q, const dvec3& w) {
+Sample sample(const Patch& patch, const CageQuadratic& q, const dvec3& w) {
   const in_double::Displacement sigma =
       in_double::displacement_and_derivatives(patch.shape, patch.tri, w);
   return {w,
@@ -98,7 +99,8 @@ Sample sample(const Patch& patch, const Quadratic& q, const dvec3& w) {
            sigma.v - 2.0 * q.blossom(w, {-1.0, 0.0, 1.0})}};
 }
 
-std::vector<Sample> samples_of(const Patch& patch, const SubTriangle& part, const Quadratic& q) {
+std::vector<Sample> samples_of(const Patch& patch, const SubTriangle& part,
+                               const CageQuadratic& q) {
   std::vector<Sample> samples;
   for (int i = 0; i <= kSamples; ++i) {
     for (int j = 0; i + j <= kSamples; ++j) {
@@ -120,10 +122,10 @@ Fit fit(const Patch& patch, const SubTriangle& part) {
   const bool cubic = in_double::is_cubic(patch.shape);
   Fit fit;
   // Of a cubic patch as the kernels have it from the triangle, to the bit.
-  fit.q =
-      cubic ? Quadratic{dvec3(0.0), dvec3(patch.bulges) * 0.5} : through(part, [&](const dvec3& w) {
-        return in_double::displacement(patch.shape, patch.tri, w);
-      });
+  fit.q = cubic ? CageQuadratic{dvec3(0.0), dvec3(patch.bulges) * 0.5}
+                : through(part, [&](const dvec3& w) {
+                    return in_double::displacement(patch.shape, patch.tri, w);
+                  });
   const double longest_D = longest_direction(patch);
   // Rounding of the coefficients to single precision.
   constexpr double rounding = 2e-7;
@@ -156,10 +158,6 @@ Fit fit(const Patch& patch, const SubTriangle& part) {
   fit.tangent_stray = widened(fit.tangent_stray);
   fit.bend = widened(fit.bend);
   return fit;
-}
-
-float rounded_up(double x) {
-  return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
 }
 
 // The ball around a part, its overlap with the next ones included.

@@ -24,7 +24,7 @@ dvec3 corner_weights(int k) {
   return e;
 }
 
-ControlNet net_of(const Corners& corners, const SubTriangle& part, const Quadratic& q) {
+ControlNet net_of(const Corners& corners, const SubTriangle& part, const CageQuadratic& q) {
   std::array<dvec3, 3> w{};
   std::array<dvec3, 3> T{};
   std::array<dvec3, 3> D{};

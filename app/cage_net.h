@@ -19,7 +19,7 @@ struct SubTriangle {
 SubTriangle enlarged(const SubTriangle& part, double margin);
 
 // Bernstein coefficients of a quadratic in the weights of the whole triangle.
-struct Quadratic {
+struct CageQuadratic {
   glm::dvec3 corner{0.0};
   glm::dvec3 edge{0.0};  // 01, 12, 02
 
@@ -45,6 +45,6 @@ glm::dvec3 corner_weights(int k);
 using ControlNet = std::array<glm::dvec3, 10>;
 
 // The cubic Bezier triangle T + q D over a part.
-ControlNet net_of(const Corners& corners, const SubTriangle& part, const Quadratic& q);
+ControlNet net_of(const Corners& corners, const SubTriangle& part, const CageQuadratic& q);
 
 }  // namespace trisect

@@ -9,6 +9,8 @@
 
 namespace trisect {
 
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 struct Interval {
   double lo = 0.0;
   double hi = 0.0;

@@ -2,19 +2,25 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/bvh.h"
 #include "app/cage.h"
+#include "app/error.h"
 #include "app/interrupt.h"
 #include "app/mesh_builder.h"
+#include "app/progress.h"
 #include "app/stopwatch.h"
+#include "app/supersampling.h"
 
 namespace trisect {
 namespace {
 
 // Runs a step and tells its milliseconds.
 template <typename Step>
-auto timed(double& ms, Step&& step) {
+auto timed(const std::string& name, double& ms, Step&& step) {
   const Stopwatch watch;
+  const BusyLine line(name);
   auto result = step();
   ms = watch.milliseconds();
   stop_if_interrupted();
@@ -24,14 +30,20 @@ auto timed(double& ms, Step&& step) {
 TraceSettings settings_for(const RenderOptions& options, const Mesh& mesh,
                            const BakedScene& scene) {
   TraceSettings settings;
-  settings.width = options.width;
-  settings.height = options.height;
+  const uint32_t side = samples_across(options.spp);
+  if (std::max(options.width, options.height) > kLargestSide / side) {
+    throw UsageError(fmt::format("--spp {}: an image of {}x{} has more than {} rays a side.",
+                                 options.spp, options.width, options.height, kLargestSide));
+  }
+  settings.width = options.width * side;
+  settings.height = options.height * side;
   settings.solver = options.solver;
   settings.rank = options.rank;
   const double aspect = static_cast<double>(options.width) / static_cast<double>(options.height);
   settings.camera = framing_camera(mesh.positions, scene.origin, options.fov, options.up, aspect);
   if (options.eye) settings.camera.eye = *options.eye;
   if (options.target) settings.camera.target = *options.target;
+  if (options.light) settings.light = *options.light;
   return settings;
 }
 
@@ -39,11 +51,11 @@ TraceSettings settings_for(const RenderOptions& options, const Mesh& mesh,
 
 LoadedScene load_scene(const RenderOptions& options) {
   LoadedScene loaded{};
-  const BuiltMesh built = timed(loaded.load_ms, [&] {
+  const BuiltMesh built = timed("reading " + options.model, loaded.load_ms, [&] {
     return build_mesh(read_obj(options.model), options.model, options.crease);
   });
   fmt::print("{}: {}\n", options.model, describe(built.report));
-  loaded.scene = timed(loaded.bake_ms, [&] {
+  loaded.scene = timed("baking", loaded.bake_ms, [&] {
     const SurfaceChoice choice{options.surface, options.alpha, options.shell};
     return options.solver == SOLVER_ROBUST ? bake_with_cages(built.mesh, choice)
                                            : bake(built.mesh, choice);
@@ -54,7 +66,7 @@ LoadedScene load_scene(const RenderOptions& options) {
 
 void add_bvh(LoadedScene& loaded) {
   double ms = 0.0;
-  loaded.scene.bvh = timed(ms, [&] { return build_bvh(loaded.scene); });
+  loaded.scene.bvh = timed("building the tree", ms, [&] { return build_bvh(loaded.scene); });
   loaded.bvh_ms = ms;
 }
 

@@ -39,6 +39,7 @@ struct RenderText {
   std::optional<std::string> eye;
   std::optional<std::string> target;
   std::optional<std::string> up;
+  std::optional<std::string> light;
 };
 
 // Accepts a number from low to high, a whole one if Number is int, and no NaN.
@@ -132,6 +133,10 @@ void add_scene(CLI::App* command, RenderOptions& options, RenderText& text) {
       ->type_name("X,Y,Z");
   command->add_option("--up", text.up, "Its up vector, default 0,1,0")->type_name("X,Y,Z");
   command
+      ->add_option("--light", text.light,
+                   "Direction toward the light, of any length, default 0.35,0.8,0.5")
+      ->type_name("X,Y,Z");
+  command
       ->add_option("--fov", options.fov,
                    "Its vertical field of view in degrees, 1 to 170, default 45")
       ->check(number_from_to(1.0, 170.0))
@@ -165,6 +170,11 @@ void add_render(CLI::App& app, RenderOptions& options, RenderText& text) {
       ->type_name("NAME");
   render->add_flag("--validation", options.validation,
                    "Run under the Vulkan validation layer, fail on any message");
+  render
+      ->add_option("--spp", options.spp,
+                   "Rays a pixel, averaged in linear light: 1, 4, 9 or 16, default 1")
+      ->check(CLI::IsMember({1, 4, 9, 16}))
+      ->type_name("N");
   render->add_option("--runs", options.runs, "Frames to time after a warm-up, default 1")
       ->check(number_from_to(1, 1000000))
       ->type_name("N");
@@ -302,6 +312,7 @@ void parse_scene(const RenderText& text, RenderOptions& options) {
   if (text.eye) options.eye = parse_triple("--eye", *text.eye);
   if (text.target) options.target = parse_triple("--target", *text.target);
   if (text.up) options.up = parse_triple("--up", *text.up);
+  if (text.light) options.light = parse_direction("--light", *text.light);
 }
 
 int run_crosscheck(CrosscheckOptions options, const CrosscheckText& text) {

@@ -60,7 +60,7 @@ const char* backend_name(Backend backend) {
 
 void parse_size(const std::string& option, const std::string& text, uint32_t& width,
                 uint32_t& height) {
-  constexpr uint32_t largest = 16384;
+  constexpr uint32_t largest = kLargestSide;
   std::string_view rest = text;
   const bool parsed = take_number(rest, width) && take_character(rest, 'x') &&
                       take_number(rest, height) && rest.empty();
@@ -84,6 +84,12 @@ glm::dvec3 parse_triple(const std::string& option, const std::string& text) {
                                  option, text, largest));
   }
   return value;
+}
+
+glm::dvec3 parse_direction(const std::string& option, const std::string& text) {
+  const glm::dvec3 direction = parse_triple(option, text);
+  if (direction == glm::dvec3(0.0)) throw UsageError(option + ": 0,0,0 is no direction.");
+  return direction;
 }
 
 Backend backend_named(const std::string& option, std::string_view name) {

@@ -19,6 +19,9 @@ enum class Backend { vulkan, opengl, cpu, oracle };
 // How OpenGL traces: the kernel of Vulkan, or the thesis's full-screen quad.
 enum class GlPath { compute, fragment };
 
+// The most pixels of an image's side, and rays in a row of them.
+constexpr uint32_t kLargestSide = 16384;
+
 struct RenderOptions {
   std::string model;
   std::string output;
@@ -34,6 +37,7 @@ struct RenderOptions {
   std::optional<glm::dvec3> eye;
   std::optional<glm::dvec3> target;
   glm::dvec3 up{0.0, 1.0, 0.0};
+  std::optional<glm::dvec3> light;
   double fov = 45.0;
   std::optional<double> crease;
   Backend backend = Backend::vulkan;
@@ -41,6 +45,7 @@ struct RenderOptions {
   std::string device;
   bool validation = false;
   uint32_t runs = 1;
+  uint32_t spp = 1;  // rays a pixel: a square number
   std::string stats;
 };
 
@@ -89,6 +94,9 @@ void parse_size(const std::string& option, const std::string& text, uint32_t& wi
 // "1,-2.5,3e2". Throws UsageError, naming the option, for anything but three numbers of at most
 // 1e12.
 glm::dvec3 parse_triple(const std::string& option, const std::string& text);
+
+// The same, not all 0.
+glm::dvec3 parse_direction(const std::string& option, const std::string& text);
 
 // The back end of that name. Throws UsageError, naming the option, if there is none.
 Backend backend_named(const std::string& option, std::string_view name);

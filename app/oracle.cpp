@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/interval.h"
+
 namespace trisect {
 namespace {
 
 using glm::dvec3;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Levels of each patch's tree that are kept: 85 parts, fewer where there are very many patches; a
 // part takes half a kilobyte.

@@ -1,10 +1,10 @@
 #include "app/part_boxes.h"
 
-#include <cmath>
 #include <limits>
 
 #include "app/cage_net.h"
 #include "app/parallel_rows.h"
+#include "app/rounding.h"
 #include "app/widen.h"
 
 namespace trisect {
@@ -12,20 +12,10 @@ namespace {
 
 using glm::dvec3;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-float below(double x) {
-  return std::nextafter(static_cast<float>(x), -kInfinity);
-}
-
-float above(double x) {
-  return std::nextafter(static_cast<float>(x), kInfinity);
-}
-
 PartBox part_box(const Triangle& single, const Cage& cage, uint shell, double slack) {
   const in_double::Triangle tri = widen(single);
   const SubTriangle part{dvec3(glm::vec3(cage.node)), cage.node.w};
-  const Quadratic q{dvec3(glm::vec3(cage.corner)), dvec3(glm::vec3(cage.edge))};
+  const CageQuadratic q{dvec3(glm::vec3(cage.corner)), dvec3(glm::vec3(cage.edge))};
   dvec3 lo(std::numeric_limits<double>::max());
   dvec3 hi = -lo;
   for (const dvec3& point : net_of(corners_of(tri, shell), enlarged(part, OVERLAP), q)) {
@@ -37,7 +27,8 @@ PartBox part_box(const Triangle& single, const Cage& cage, uint shell, double sl
   const dvec3 stray(cage.corner.w);
   lo = glm::max(lo - stray, middle - dvec3(tri.Domain.w)) - dvec3(slack);
   hi = glm::min(hi + stray, middle + dvec3(tri.Domain.w)) + dvec3(slack);
-  return {{below(lo.x), below(lo.y), below(lo.z)}, {above(hi.x), above(hi.y), above(hi.z)}};
+  return {{rounded_down(lo.x), rounded_down(lo.y), rounded_down(lo.z)},
+          {rounded_up(hi.x), rounded_up(hi.y), rounded_up(hi.z)}};
 }
 
 }  // namespace

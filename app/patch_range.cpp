@@ -11,7 +11,6 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Relative. Every figure below comes of fewer than a hundred roundings of numbers no larger than
 // the magnitude that this is multiplied with; a rounding is 1.1e-16.
 constexpr double kRounding = 1e-13;

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "app/interval.h"
 #include "app/sphere_range.h"
 #include "app/widen.h"
 
@@ -16,7 +17,6 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A part at this depth is a 4096th of the edges: what folds or fails to converge there is left.
 constexpr int kDeepest = 12;
 // From this depth on, a part whose enclosure does not shrink with it is left too.

@@ -32,4 +32,29 @@ void Progress::show(uint64_t done) {
   shown_ = true;
 }
 
+BusyLine::BusyLine(std::string step) : step_(std::move(step)) {
+  if (isatty(STDERR_FILENO) != 0) thread_ = std::thread([this] { show_until_ended(); });
+}
+
+BusyLine::~BusyLine() {
+  if (!thread_.joinable()) return;
+  {
+    const std::scoped_lock lock(mutex_);
+    ended_ = true;
+  }
+  end_.notify_one();
+  thread_.join();
+}
+
+void BusyLine::show_until_ended() {
+  std::unique_lock lock(mutex_);
+  int seconds = 0;
+  while (!end_.wait_for(lock, std::chrono::seconds(1), [this] { return ended_; })) {
+    ++seconds;
+    std::fputs(fmt::format("\r{} ({} s)", step_, seconds).c_str(), stderr);
+    std::fflush(stderr);
+  }
+  if (seconds > 0) std::fputs("\r\033[K", stderr);
+}
+
 }  // namespace trisect

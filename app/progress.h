@@ -1,9 +1,12 @@
-// A line on a terminal that says how far a long step is.
+// Lines on a terminal that say how far a long step is.
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
+#include <mutex>
 #include <string>
+#include <thread>
 
 namespace trisect {
 
@@ -27,6 +30,28 @@ class Progress {
   uint64_t total_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   bool shown_ = false;
+};
+
+// A line that says how long a step has taken for which nobody knows how far it is. Shown as long as
+// it lives, under the same conditions.
+class BusyLine {
+ public:
+  explicit BusyLine(std::string step);
+  // Wipes the line.
+  ~BusyLine();
+  BusyLine(const BusyLine&) = delete;
+  BusyLine& operator=(const BusyLine&) = delete;
+  BusyLine(BusyLine&&) = delete;
+  BusyLine& operator=(BusyLine&&) = delete;
+
+ private:
+  void show_until_ended();
+
+  std::string step_;
+  std::mutex mutex_;
+  std::condition_variable end_;
+  bool ended_ = false;
+  std::thread thread_;
 };
 
 }  // namespace trisect

@@ -13,6 +13,7 @@
 #include "app/image_file.h"
 #include "app/load_scene.h"
 #include "app/statistics.h"
+#include "app/supersampling.h"
 #include "app/trace_scene.h"
 
 namespace trisect {
@@ -58,9 +59,10 @@ int render(const RenderOptions& options) {
   if (!options.stats.empty()) stats.emplace(options.stats);
 
   const bool aovs = format == ImageFormat::exr || options.evals;
-  const TraceResult traced = trace_scene(
+  TraceResult traced = trace_scene(
       {options.backend, options.gl_path, options.device, options.validation, options.runs, true},
       loaded.scene, loaded.params, {options.solver, aovs, options.evals, accel});
+  traced.frame = averaged(traced.frame, samples_across(options.spp));
   RenderStatistics statistics;
   statistics.accel = accel;
   statistics.device = traced.device;

@@ -52,6 +52,7 @@ std::string to_json(const RenderOptions& options, const RenderStatistics& statis
     json["evals_total"] = statistics.counts->evaluations;
     json["candidates_total"] = statistics.counts->candidates;
   }
+  json["spp"] = options.spp;
   json["runs"] = options.runs;
   json["gpu_ms"] = json_of(spread_over(statistics.frames, &FrameTime::gpu_ms));
   json["wall_ms"] = json_of(spread_over(statistics.frames, &FrameTime::wall_ms));

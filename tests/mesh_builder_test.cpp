@@ -21,7 +21,7 @@ constexpr const char* kCube =
     "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
 
 // Rounding of a few double-precision operations on numbers of order 1.
-constexpr double kRounding = 1e-14;
+constexpr double kSomeRoundings = 1e-14;
 
 TEST(BuildMesh, ReportsAClosedCube) {
   const BuiltMesh built = build(kCube);
@@ -42,7 +42,7 @@ TEST(BuildMesh, WeighsNormalsByAngle) {
   for (const MeshTriangle& t : built.mesh.triangles) {
     for (std::size_t i = 0; i < 3; ++i) {
       const dvec3 outward = glm::normalize(built.mesh.positions[t.vertex[i]] - dvec3(0.5));
-      EXPECT_LT(glm::distance(built.mesh.normals[t.normal[i]], outward), kRounding);
+      EXPECT_LT(glm::distance(built.mesh.normals[t.normal[i]], outward), kSomeRoundings);
     }
   }
 }
@@ -61,16 +61,16 @@ TEST(BuildMesh, KeepsTheFilesNormalsAtUnitLength) {
       build("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 5\nvn 3e-200 0 4e-200\nf 1//1 2//2 3//1\n");
   EXPECT_EQ(built.report.normals, NormalSource::file);
   const MeshTriangle& t = built.mesh.triangles[0];
-  EXPECT_LT(glm::distance(built.mesh.normals[t.normal[0]], dvec3(0, 0, 1)), kRounding);
-  EXPECT_LT(glm::distance(built.mesh.normals[t.normal[1]], dvec3(0.6, 0, 0.8)), kRounding);
+  EXPECT_LT(glm::distance(built.mesh.normals[t.normal[0]], dvec3(0, 0, 1)), kSomeRoundings);
+  EXPECT_LT(glm::distance(built.mesh.normals[t.normal[1]], dvec3(0.6, 0, 0.8)), kSomeRoundings);
 }
 
 TEST(BuildMesh, FillsInMissingAndZeroNormals) {
   const BuiltMesh built = build("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 1\nvn 0 0 0\nf 1//1 2 3//2\n");
   EXPECT_EQ(built.report.normals, NormalSource::mixed);
   const MeshTriangle& t = built.mesh.triangles[0];
-  EXPECT_LT(glm::distance(built.mesh.normals[t.normal[1]], dvec3(0, 0, 1)), kRounding);
-  EXPECT_LT(glm::distance(built.mesh.normals[t.normal[2]], dvec3(0, 0, 1)), kRounding);
+  EXPECT_LT(glm::distance(built.mesh.normals[t.normal[1]], dvec3(0, 0, 1)), kSomeRoundings);
+  EXPECT_LT(glm::distance(built.mesh.normals[t.normal[2]], dvec3(0, 0, 1)), kSomeRoundings);
 }
 
 TEST(BuildMesh, DropsTrianglesWithoutAreaAndKeepsSlivers) {

@@ -1,6 +1,7 @@
 // The program as a user runs it: exit codes, messages, files.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -144,6 +145,29 @@ TEST_F(Program, PicksAnAccelerationAndSaysWhich) {
   EXPECT_EQ(accel({"--accel", "bvh"}), "bvh");
   EXPECT_EQ(accel({"--preset", "thesis"}), "list");
   EXPECT_EQ(accel({"--backend", "cpu"}), "list");
+}
+
+TEST_F(Program, LightsFromADirection) {
+  expect_complaint(render({"--light", "0,0,0"}), 2, "no direction");
+  ASSERT_EQ(render({"--light", "0,0,1"}, "front.exr").exit_code, 0);
+  ASSERT_EQ(render({"--light", "0,0,-5"}, "back.exr").exit_code, 0);
+  const Frame front = test::read_exr(folder_ / "front.exr");
+  const Frame back = test::read_exr(folder_ / "back.exr");
+  // The middle of the sphere that the camera faces.
+  const std::size_t middle = 12U * 32U + 16U;
+  EXPECT_GT(front.colors.at(middle).x, 2.0F * back.colors.at(middle).x);
+}
+
+TEST_F(Program, AveragesSeveralRaysAPixel) {
+  expect_complaint(render({"--spp", "5"}), 2, "--spp");
+  expect_complaint(render({"--spp", "16", "--size", "8000x10"}), 2, "16384 rays a side");
+  ASSERT_EQ(render({"--spp", "16", "--evals"}, "a.exr").exit_code, 0);
+  const Frame image = test::read_exr(folder_ / "a.exr");
+  EXPECT_EQ(image.width, 32U);
+  EXPECT_EQ(image.height, 24U);
+  // At the outline some of a pixel's rays hit.
+  EXPECT_TRUE(std::any_of(image.colors.begin(), image.colors.end(),
+                          [](const vec4& color) { return color.w > 0.0F && color.w < 1.0F; }));
 }
 
 TEST_F(Program, ComplainsAboutDevicesWithCode4) {
