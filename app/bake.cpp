@@ -65,6 +65,11 @@ Triangle bake_triangle(const std::array<dvec3, 3>& positions, const std::array<d
   return tri;
 }
 
+std::size_t bytes_of(const BakedScene& scene) {
+  return scene.triangles.size() * sizeof(Triangle) + scene.cages.size() * sizeof(Cage) +
+         scene.bvh.size() * sizeof(BvhEntry);
+}
+
 BakedScene bake(const Mesh& mesh, const SurfaceChoice& choice) {
   BakedScene scene;
   scene.choice = choice;

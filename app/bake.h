@@ -23,6 +23,9 @@ struct BakedScene {
   double radius = 0.0;  // of the ball about `origin` that contains every triangle's Domain
 };
 
+// What the scene takes in a device's memory.
+std::size_t bytes_of(const BakedScene& scene);
+
 // Pure. Throws InputError if the model is too large or too small for single precision.
 BakedScene bake(const Mesh& mesh, const SurfaceChoice& choice);
 

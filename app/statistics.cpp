@@ -48,6 +48,7 @@ std::string to_json(const RenderOptions& options, const RenderStatistics& statis
   json["rank"] = options.rank;
   json["alpha"] = options.alpha;
   json["hits"] = statistics.hits;
+  json["scene_bytes"] = statistics.scene_bytes;
   if (statistics.counts) {
     json["evals_total"] = statistics.counts->evaluations;
     json["candidates_total"] = statistics.counts->candidates;

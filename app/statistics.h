@@ -34,6 +34,7 @@ struct RenderStatistics {
   Accel accel = Accel::list;
   std::size_t patches = 0;
   std::size_t hits = 0;
+  std::size_t scene_bytes = 0;       // on the device: triangles, cages, tree
   std::optional<WorkCounts> counts;  // if asked for
   std::vector<FrameTime> frames;     // the counted runs
   double load_ms = 0.0;

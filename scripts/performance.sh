@@ -4,7 +4,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh build docs
 cmake --preset release >/dev/null
-cmake --build --preset release --target trisect
+cmake --build --preset release --target trisect make-assets
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 models=(sphere-20 sphere-80 sphere-320 teapot teapot-1000 torus relief)
@@ -27,6 +27,18 @@ row() {
   bvh=$(ms)
   echo "| $model | $patches | $surface | $thesis | $list | $tiles | $bvh | $(jq -n "$thesis / $tiles | . * 10 | round / 10") |"
 }
+
+# One line of the table of sizes.
+large_row() {
+  local newer
+  build/release/make-assets "$work" "$1"
+  measure newer "$work/$1.obj" 3 --accel bvh
+  newer=$(ms)
+  measure stock "$work/$1.obj" 3 --accel bvh
+  echo "| $1 | $(figure .patches) | $(seconds .load_ms) | $(seconds .bake_ms) | $(seconds .bvh_ms) | $(seconds .upload_ms) |" \
+    "$(figure '.scene_bytes / .patches | round') | $(ms) | $newer |"
+}
+seconds() { figure "$1 | . / 10 | round / 100"; }
 
 scripts/unpack-mesa.sh >/dev/null
 {
@@ -54,6 +66,20 @@ END
     echo '|---|---|---|---|---|---|---|---|'
     for model in "${models[@]}"; do row $driver "$model" phong; done
     for model in sphere-20 sphere-80 sphere-320; do row $driver "$model" sphere; done
+  done
+  cat <<END
+
+## Size
+
+The same teapot, divided ever more finely, by --accel bvh. Bake: triangles, cages and, in the next column, the tree.
+Bytes: what a patch takes on the device, triangles, cages and tree. Frames: A ${name[stock]}, B ${name[newer]}.
+
+| model | patches | read, s | bake, s | tree, s | upload, s | bytes | A, ms | B, ms |
+|---|---|---|---|---|---|---|---|---|
+END
+  for model in teapot-1000 teapot-16k teapot-65k teapot-260k teapot-1m teapot-4m; do
+    large_row "$model"
+    rm -f "$work/$model.obj"
   done
 } >"$work/performance.md"
 mv "$work/performance.md" docs/performance.md

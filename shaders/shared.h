@@ -36,14 +36,14 @@ struct Cage {
                // own
 };
 
-// One of the eight children of a node of the tree over the parts' boxes, 32 bytes; node n has entries
-// 8 n to 8 n + 7, in the order of octants: bit k of a child's number is set if it lies on the far
-// side along axis k.
+// One of the eight children of a node of the tree over the parts' boxes, 32 bytes; node n has
+// entries 8 n to 8 n + 7, in the order of octants: bit k of a child's number is set if it lies on
+// the far side along axis k.
 struct BvhEntry {
   float lo_x;  // of a box that contains the child's parts
   float lo_y;
   float lo_z;
-  uint link;   // first entry of the child's node, BVH_PART + index of the part, or BVH_NOTHING
+  uint link;  // first entry of the child's node, BVH_PART + index of the part, or BVH_NOTHING
   float hi_x;
   float hi_y;
   float hi_z;
@@ -188,8 +188,9 @@ const float OVERLAP = 0.03125;
 // A part is enlarged by so much for its cone.
 const float CONE_MARGIN = 0.125;
 
-// Boxes are widened by this part of the scene's extent when the tree is built, and of the distance of
-// a ray's anchor when it is met: some roundings of a position, and what the solver calls a touch.
+// Boxes are widened by this part of the scene's extent when the tree is built, and of the distance
+// of a ray's anchor when it is met: some roundings of a position, and what the solver calls a
+// touch.
 const float BVH_SLACK = 0.00000095367431640625;  // 2^-20
 const uint BVH_NOTHING = 0u;
 const uint BVH_PART = 2147483648u;
