@@ -65,7 +65,7 @@ Triangle bake_triangle(const std::array<dvec3, 3>& positions, const std::array<d
   return tri;
 }
 
-std::size_t bytes_of(const BakedScene& scene) {
+std::size_t device_bytes(const BakedScene& scene) {
   return scene.triangles.size() * sizeof(Triangle) + scene.cages.size() * sizeof(Cage) +
          scene.bvh.size() * sizeof(BvhEntry);
 }

@@ -24,7 +24,7 @@ struct BakedScene {
 };
 
 // What the scene takes in a device's memory.
-std::size_t bytes_of(const BakedScene& scene);
+std::size_t device_bytes(const BakedScene& scene);
 
 // Pure. Throws InputError if the model is too large or too small for single precision.
 BakedScene bake(const Mesh& mesh, const SurfaceChoice& choice);

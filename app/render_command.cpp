@@ -69,7 +69,7 @@ int render(const RenderOptions& options) {
   statistics.driver = traced.driver;
   statistics.patches = loaded.scene.triangles.size();
   statistics.hits = traced.frame.hits();
-  statistics.scene_bytes = bytes_of(loaded.scene);
+  statistics.scene_bytes = device_bytes(loaded.scene);
   if (options.evals) statistics.counts = count_work(traced.frame);
   statistics.frames = traced.frames;
   statistics.load_ms = loaded.load_ms;

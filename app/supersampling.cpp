@@ -25,12 +25,12 @@ Frame averaged(const Frame& samples, uint32_t across) {
   if (across == 1) return samples;
   Frame frame;
   frame.resize(samples.width / across, samples.height / across, !samples.aovs.empty());
-  const auto weight = 1.0F / static_cast<float>(across * across);
+  const float weight = 1.0F / (static_cast<float>(across) * static_cast<float>(across));
   for (uint32_t y = 0; y < frame.height; ++y) {
     for (uint32_t x = 0; x < frame.width; ++x) {
       const std::size_t pixel = std::size_t{y} * frame.width + x;
       const auto sample = [&](uint32_t row, uint32_t column) {
-        return std::size_t{y * across + row} * samples.width + x * across + column;
+        return (std::size_t{y} * across + row) * samples.width + std::size_t{x} * across + column;
       };
       if (!frame.aovs.empty()) {
         frame.aovs[pixel] = samples.aovs[sample(across / 2, across / 2)];
