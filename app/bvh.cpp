@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <new>
@@ -13,13 +11,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "app/error.h"
 #include "app/part_boxes.h"
 
 namespace trisect {
 namespace {
 
 constexpr uint32_t kChildren = 8;
-constexpr uint32_t kDepth = 32;
 
 // What Embree's builder makes: a tree of these, in its own memory.
 struct Branch {
@@ -117,8 +115,12 @@ std::array<uint32_t, kChildren> octants_of(const Branch& branch) {
   }
 }
 
-// Appends the branch's node and all below it. next: the entry that follows it.
-void flatten(const Branch& branch, uint32_t next, std::vector<BvhEntry>& bvh) {
+// Appends the branch's node and all below it. next: the entry that follows it. level: of the node,
+// 0 for the root.
+void flatten(const Branch& branch, int level, uint32_t next, std::vector<BvhEntry>& bvh) {
+  if (level == BVH_LEVELS || bvh.size() / kChildren == BVH_MOST_NODES) {
+    throw InputError("the model has more patches than a tree may hold; use --accel list.");
+  }
   const auto first = static_cast<uint32_t>(bvh.size());
   bvh.resize(first + kChildren);
   const std::array<uint32_t, kChildren> children = octants_of(branch);
@@ -135,7 +137,7 @@ void flatten(const Branch& branch, uint32_t next, std::vector<BvhEntry>& bvh) {
         entry.link = BVH_PART + child.part;
       } else {
         entry.link = static_cast<uint32_t>(bvh.size());
-        flatten(child, follows, bvh);
+        flatten(child, level + 1, follows, bvh);
       }
     }
     bvh[first + k] = entry;
@@ -160,7 +162,7 @@ std::vector<BvhEntry> build_bvh(const BakedScene& scene) {
   const std::unique_ptr<std::remove_pointer_t<RTCBVH>, ReleaseBvh> memory(rtcNewBVH(device.get()));
   RTCBuildArguments arguments = rtcDefaultBuildArguments();
   arguments.maxBranchingFactor = kChildren;
-  arguments.maxDepth = kDepth;
+  arguments.maxDepth = BVH_LEVELS;
   arguments.maxLeafSize = 1;
   arguments.bvh = memory.get();
   arguments.primitives = primitives.data();
@@ -182,9 +184,9 @@ std::vector<BvhEntry> build_bvh(const BakedScene& scene) {
     Branch only;
     only.children[0] = root;
     only.boxes[0] = boxes[root->part];
-    flatten(only, BVH_END, bvh);
+    flatten(only, 0, BVH_END, bvh);
   } else {
-    flatten(*root, BVH_END, bvh);
+    flatten(*root, 0, BVH_END, bvh);
   }
   return bvh;
 }

@@ -7,8 +7,6 @@
 const uint CHILDREN = 8u;
 const uint CAGE_WORDS = 6u;
 const uint TRIANGLE_WORDS = 12u;
-// The tree's depth.
-const int LEVELS = 32;
 // A packet gives up after so many: llvmpipe ends all loops of a subgroup after 65535 iterations. Its rays then start
 // anew one by one.
 const int PACKET_STEPS = 16000;
@@ -75,7 +73,7 @@ struct Descent {
 
 // 256 times the number of a node above, and its children that are still to be seen, for each level and subgroup. Not
 // an array of the invocation's own: drivers make a ladder of branches of that.
-shared uint above[TILE_SIZE * TILE_SIZE / CHILDREN][LEVELS];
+shared uint above[TILE_SIZE * TILE_SIZE / CHILDREN][BVH_LEVELS];
 
 uint children_met(Packet packet, uint node, float end) {
   uint k = gl_SubgroupInvocationID;

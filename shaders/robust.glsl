@@ -71,11 +71,11 @@ FramedPatch sheared_patch(RayFrame frame, FramedPatch at) {
   return framed;
 }
 
-// What a coordinate across the ray may be off by: some roundings of the anchor and of the patch's position, the first
-// vertex's or, if that lies at the origin, the others'. A ray that passes a patch's border by less than this meets it,
-// so that none falls between two patches.
+// What a coordinate across the ray may be off by: some roundings of the anchor and of the patch's farthest vertex. A
+// ray that passes a patch's border by less than this meets it, so that none falls between two patches.
 real grain(RayFrame frame, Triangle tri) {
-  real farthest = max(length3(vec3(tri.Position[0])), tri.TriNormal.w);
+  real farthest = max(length3(vec3(tri.Position[0])),
+                      max(length3(vec3(tri.Position[1])), length3(vec3(tri.Position[2]))));
   return real(2.4e-7) * frame.stretch * max(length3(frame.anchor), farthest);
 }
 

@@ -192,6 +192,9 @@ const float CONE_MARGIN = 0.125;
 // of a ray's anchor when it is met: some roundings of a position, and what the solver calls a
 // touch.
 const float BVH_SLACK = 0.00000095367431640625;  // 2^-20
+// The tree's depth, and nodes that a packet's stack can number.
+const int BVH_LEVELS = 32;
+const uint BVH_MOST_NODES = 16777216u;
 const uint BVH_NOTHING = 0u;
 const uint BVH_PART = 2147483648u;
 const uint BVH_END = 4294967295u;
