@@ -44,20 +44,16 @@ void trace_on_cpu(const BakedScene& scene, const TraceParams& params, const Kern
 std::vector<CastHit> cast_on_cpu(const BakedScene& scene, const TraceParams& params, uint solver,
                                  std::span<const CastRay> rays) {
   std::vector<CastHit> hits(rays.size());
-  constexpr std::size_t batch = 1024;
   const Kernel shared = in_float::kernel_of(scene, params, {solver, false, true});
-  const auto row = [&](uint32_t y) {
+  parallel_chunks(rays.size(), [&](std::size_t first, std::size_t end) {
     Kernel kernel = shared;
-    const std::size_t first = y * batch;
-    const std::size_t end = std::min(first + batch, rays.size());
     for (std::size_t i = first; i < end; ++i) {
       const Kernel::PixelRay ray = kernel.ray_cast(rays[i]);
       in_float::Walk walk = kernel.walk_begun(kSteps);
       walk_through(kernel, ray, walk);
       hits[i] = kernel.hit_cast(ray, walk);
     }
-  };
-  parallel_rows(static_cast<uint32_t>((rays.size() + batch - 1) / batch), row, {});
+  });
   return hits;
 }
 

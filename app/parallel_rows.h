@@ -18,6 +18,6 @@ void parallel_rows(uint32_t height, const std::function<void(uint32_t)>& row,
 void parallel_chunks(std::size_t count, const std::function<void(std::size_t, std::size_t)>& chunk);
 
 // Items of a chunk.
-constexpr std::size_t kChunk = 4096;
+constexpr std::size_t kChunk = 1024;
 
 }  // namespace trisect

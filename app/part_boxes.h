@@ -1,7 +1,6 @@
 // Where the parts of a scene's patches are.
 #pragma once
 
-#include <array>
 #include <glm/glm.hpp>
 #include <vector>
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "app/accel.h"
 #include "app/atomic_file.h"
@@ -62,7 +63,7 @@ int render(const RenderOptions& options) {
   TraceResult traced = trace_scene(
       {options.backend, options.gl_path, options.device, options.validation, options.runs, true},
       loaded.scene, loaded.params, {options.solver, aovs, options.evals, accel});
-  traced.frame = averaged(traced.frame, samples_across(options.spp));
+  traced.frame = averaged(std::move(traced.frame), samples_across(options.spp));
   RenderStatistics statistics;
   statistics.accel = accel;
   statistics.device = traced.device;

@@ -23,14 +23,17 @@ void upload_items(gpu::Staging& staging, gpu::Commands& commands, const std::vec
 
 SceneBuffers::SceneBuffers(const gpu::Device& device, const BakedScene& scene, std::size_t limit,
                            bool addressable)
-    : by_address_(addressable && device.has_addresses() && !fits(scene, limit)),
-      triangles_(device,
-                 triangle_bytes(device.report().name, by_address_ ? kNoLimit : limit, scene),
-                 by_address_ ? gpu::Memory::addressed : gpu::Memory::device, "triangles"),
-      cages_(device, cage_bytes(device.report().name, by_address_ ? kNoLimit : limit, scene),
-             by_address_ ? gpu::Memory::addressed : gpu::Memory::device, "cages"),
-      bvh_(device, bvh_bytes(device.report().name, by_address_ ? kNoLimit : limit, scene),
-           by_address_ ? gpu::Memory::addressed : gpu::Memory::device, "tree"),
+    : SceneBuffers(device, scene,
+                   addressable && device.has_addresses() && !fits(scene, limit)
+                       ? Reach{kNoLimit, gpu::Memory::addressed}
+                       : Reach{limit, gpu::Memory::device}) {}
+
+SceneBuffers::SceneBuffers(const gpu::Device& device, const BakedScene& scene, const Reach& reach)
+    : by_address_(reach.memory == gpu::Memory::addressed),
+      triangles_(device, triangle_bytes(device.report().name, reach.limit, scene), reach.memory,
+                 "triangles"),
+      cages_(device, cage_bytes(device.report().name, reach.limit, scene), reach.memory, "cages"),
+      bvh_(device, bvh_bytes(device.report().name, reach.limit, scene), reach.memory, "tree"),
       addresses_(device, sizeof(Addresses), gpu::Memory::host, "addresses"),
       unused_(device, sizeof(vec4), gpu::Memory::device, "unused") {
   if (!by_address_) return;

@@ -29,6 +29,13 @@ class SceneBuffers {
   [[nodiscard]] const gpu::Buffer& addresses() const { return addresses_; }
 
  private:
+  // How kernels reach the buffers, and the most bytes that one of them may have for it.
+  struct Reach {
+    std::size_t limit;
+    gpu::Memory memory;
+  };
+  SceneBuffers(const gpu::Device& device, const BakedScene& scene, const Reach& reach);
+
   bool by_address_;
   gpu::Buffer triangles_;
   gpu::Buffer cages_;

@@ -21,7 +21,7 @@ uint32_t samples_across(uint32_t spp) {
   return static_cast<uint32_t>(std::lround(std::sqrt(static_cast<double>(spp))));
 }
 
-Frame averaged(const Frame& samples, uint32_t across) {
+Frame averaged(Frame samples, uint32_t across) {
   if (across == 1) return samples;
   Frame frame;
   frame.resize(samples.width / across, samples.height / across, !samples.aovs.empty());

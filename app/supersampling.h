@@ -13,6 +13,6 @@ uint32_t samples_across(uint32_t spp);
 // The frame with blocks of across x across pixels made one: its colour is their mean in linear
 // light, its w the part of them that hit something; its evaluations and candidates are their sum.
 // The other AOVs are those of the block's pixel in the middle, the lower right one of four.
-Frame averaged(const Frame& samples, uint32_t across);
+Frame averaged(Frame samples, uint32_t across);
 
 }  // namespace trisect

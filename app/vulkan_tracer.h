@@ -3,10 +3,10 @@
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <optional>
 
 #include "app/bake.h"
+#include "app/buffer_limits.h"
 #include "app/frame.h"
 #include "app/frame_time.h"
 #include "app/kernel_choice.h"
@@ -25,8 +25,7 @@ class VulkanTracer {
   // buffer_limit: the most bytes a buffer may have, if less than the device's own limit. Throws
   // gpu::Error if the device cannot hold the scene.
   VulkanTracer(const gpu::Device& device, const BakedScene& scene, uint32_t width, uint32_t height,
-               const KernelChoice& choice,
-               std::size_t buffer_limit = std::numeric_limits<std::size_t>::max());
+               const KernelChoice& choice, std::size_t buffer_limit = kNoLimit);
 
   // Renders into `frame`, in submits of bounded time. params.width and .height must be the
   // tracer's. between_submits, if set, is called between any two; what it throws stops the frame.

@@ -12,11 +12,8 @@ trap 'rm -rf "$work"' EXIT
 # thesis DRIVER MODEL SURFACE RANK RUNS
 thesis() { measure "$1" "$2" "$5" --preset thesis --surface "$3" --rank "$4"; }
 
-scripts/unpack-mesa.sh >/dev/null
+name_drivers
 {
-  thesis newer sphere-20 phong 10 1
-  newer=$(figure .driver)
-  thesis stock sphere-20 phong 10 1
   cat <<END
 # The baseline
 
@@ -24,8 +21,8 @@ The thesis's algorithm as it stands: every triangle at every pixel, bisection. 8
 \`scripts/baseline.sh\` on $(nproc) cores:
 
 - device $(figure .device)
-- driver A: $(figure .driver), Debian 12's own
-- driver B: $newer, from bookworm-backports
+- driver A: ${name[stock]}, Debian 12's own
+- driver B: ${name[newer]}, from bookworm-backports
 
 ## Time at Rank 10
 

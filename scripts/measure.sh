@@ -13,3 +13,14 @@ measure() {
 
 # figure PATH: a figure of the last measurement, such as .hits or .gpu_ms.median.
 figure() { jq -r "$1" "$work/a.json"; }
+
+# name_drivers: unpacks the newer driver, and sets name[newer] and name[stock].
+declare -A name
+name_drivers() {
+  local driver
+  scripts/unpack-mesa.sh >/dev/null
+  for driver in newer stock; do
+    measure $driver sphere-20 1
+    name[$driver]=$(figure .driver)
+  done
+}

@@ -25,13 +25,8 @@ row() {
   echo "| $model | $patches | $surface | $thesis | $list | $tiles | $(jq -n "$thesis / $tiles | . * 10 | round / 10") |"
 }
 
-scripts/unpack-mesa.sh >/dev/null
+name_drivers
 {
-  declare -A name
-  for driver in newer stock; do
-    measure $driver sphere-20 1
-    name[$driver]=$(figure .driver)
-  done
   cat <<END
 # Speed
 

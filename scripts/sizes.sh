@@ -25,13 +25,8 @@ row() {
   rm "$work/$1.obj"
 }
 
-scripts/unpack-mesa.sh >/dev/null
+name_drivers
 {
-  declare -A name
-  for driver in newer stock; do
-    measure $driver sphere-20 1
-    name[$driver]=$(figure .driver)
-  done
   cat <<END
 # Size
 

@@ -5,10 +5,6 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_vote : require
-#ifdef TRISECT_ADDRESSES
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference_uvec2 : require
-#endif
 #define TRISECT_BVH
 #include "language.h"
 #include "shared.h"

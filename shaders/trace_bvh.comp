@@ -1,10 +1,6 @@
 #version 450
 // The renderer over the tree of the parts' boxes: every pixel against the parts in whose boxes its ray comes.
 #extension GL_GOOGLE_include_directive : require
-#ifdef TRISECT_ADDRESSES
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference_uvec2 : require
-#endif
 #define TRISECT_BVH
 #include "language.h"
 #include "shared.h"

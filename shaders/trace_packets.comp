@@ -6,10 +6,6 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_vote : require
-#ifdef TRISECT_ADDRESSES
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference_uvec2 : require
-#endif
 #define TRISECT_BVH
 #include "language.h"
 #include "shared.h"
@@ -24,6 +20,7 @@ layout(local_size_x = TILE_SIZE * TILE_SIZE) in;
 #include "trace.glsl"
 #include "write_pixel.glsl"
 #include "queue.glsl"
+#include "meet_quickly.glsl"
 #include "packets.glsl"
 
 // One part, all rays of the subgroup.
@@ -35,14 +32,7 @@ void meet(uint part, PixelRay ray, bool here, inout Walk walk, inout bool undeci
   float reach = grain(ray.frame, tri);
   Net net = cage_net(framed, cage.corner.xyz, cage.edge.xyz, widened(node_at(cage.node, WHOLE)));
   here = here && near_ray(net, ray.frame.stretch * cage.corner.w + reach);
-  // No step is taken for a ray that passes it by.
-  cage.cone.w = here ? cage.cone.w : NO_CONE;
-  precise float z;
-  precise vec3 weights;
-  uint found = meet_once(scene_shape(), tri, cage, framed, ray.view, reach, z, weights, walk.counts.evaluations);
-  if (COUNTS && here) ++walk.counts.candidates;
-  if (here && found == FOUND_NOTHING) undecided = true;
-  if (here && found == FOUND_ROOT) keep_nearest(z, weights, cage.triangle, part, ray.nearest, walk.hit);
+  meet_quickly(tri, cage.triangle, cage, framed, part, ray, reach, here, walk, undecided);
 }
 
 void main() {

@@ -18,6 +18,7 @@ layout(std430, binding = BINDING_VIEW_PARTS) readonly restrict buffer ViewPartsB
 #include "trace.glsl"
 #include "write_pixel.glsl"
 #include "queue.glsl"
+#include "meet_quickly.glsl"
 #include "may_see.glsl"
 
 layout(std430, binding = BINDING_TILE_ORDER) readonly restrict buffer TileOrderBlock { uint tile_order[]; };
@@ -85,16 +86,10 @@ void meet(uint part, PixelRay ray, vec2 position, INOUT(Walk) walk, INOUT(bool) 
   Cage cage;
   cage.edge = vec4(view.P0.w, view.P1.w, view.P2.w, 0.0);
   cage.node = vec4(view.D0.w, view.D1.w, view.D2.w, view.sizes.x);
-  // No step is taken for a ray that passes it by.
-  cage.cone = vec4(view.cone.xyz, here ? view.cone.w : NO_CONE);
+  cage.cone = view.cone;
   uint triangle = uint(view.lines_y.w);
-  precise float z;
-  precise vec3 weights;
-  uint found = meet_once(scene_shape(), triangles[triangle], cage, sheared_patch(ray.frame, at), ray.view,
-                         ray.frame.stretch * view.sizes.y, z, weights, walk.counts.evaluations);
-  if (COUNTS && here) ++walk.counts.candidates;
-  if (here && found == FOUND_NOTHING) undecided = true;
-  if (here && found == FOUND_ROOT) keep_nearest(z, weights, triangle, part, ray.nearest, walk.hit);
+  meet_quickly(triangles[triangle], triangle, cage, sheared_patch(ray.frame, at), part, ray,
+               ray.frame.stretch * view.sizes.y, here, walk, undecided);
 }
 
 void main() {

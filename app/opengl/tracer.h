@@ -3,11 +3,11 @@
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "app/bake.h"
+#include "app/buffer_limits.h"
 #include "app/frame.h"
 #include "app/frame_time.h"
 #include "app/kernel_choice.h"
@@ -23,7 +23,7 @@ class Tracer {
   // width, height: pixels of the frames. buffer_limit: the most bytes a buffer may have, if less
   // than OpenGL's own limit. Throws gpu::Error if OpenGL cannot hold the scene or the image.
   Tracer(const BakedScene& scene, uint32_t width, uint32_t height, const KernelChoice& choice,
-         GlPath path, std::size_t buffer_limit = std::numeric_limits<std::size_t>::max());
+         GlPath path, std::size_t buffer_limit = kNoLimit);
 
   // As VulkanTracer::render; gpu_ms is by the host's clock.
   FrameTime render(const TraceParams& params, Frame& frame,
