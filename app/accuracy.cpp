@@ -11,11 +11,6 @@ namespace {
 
 using glm::dvec3;
 
-bool has_nan(const vec4& color, const PixelAovs& aov) {
-  return glm::any(glm::isnan(color)) || glm::any(glm::isnan(aov.normal_z)) ||
-         glm::any(glm::isnan(aov.geometric_u)) || std::isnan(aov.v);
-}
-
 // The pixels that both hit, one after the other.
 struct Errors {
   std::vector<double> off_surface;
@@ -24,6 +19,20 @@ struct Errors {
 };
 
 }  // namespace
+
+bool has_nan(const vec4& color, const PixelAovs& aov) {
+  return glm::any(glm::isnan(color)) || glm::any(glm::isnan(aov.normal_z)) ||
+         glm::any(glm::isnan(aov.geometric_u)) || std::isnan(aov.v);
+}
+
+PixelError pixel_error(const TraceParams& params, uint32_t x, uint32_t y,
+                       const OracleAnswer& answer, const PixelAovs& aov) {
+  const OraclePixelRay pixel = oracle_pixel_ray(params, x, y);
+  const double depth =
+      std::abs(static_cast<double>(aov.normal_z.w) - (pixel.anchor_distance + answer.root.t));
+  return {depth * std::abs(glm::dot(answer.root.normal, pixel.ray.direction)),
+          depth / ulp_of(aov.normal_z.w)};
+}
 
 Accuracy accuracy_of(const Frame& frame, const OracleFrame& truth, const BakedScene& scene,
                      const TraceParams& params) {
@@ -52,16 +61,13 @@ Accuracy accuracy_of(const Frame& frame, const OracleFrame& truth, const BakedSc
     if (!hit || !answer.hit) continue;
     const auto x = static_cast<uint32_t>(i % truth.width);
     const auto y = static_cast<uint32_t>(i / truth.width);
-    const OraclePixelRay pixel = oracle_pixel_ray(params, x, y);
-    const double error =
-        std::abs(static_cast<double>(aov.normal_z.w) - (pixel.anchor_distance + answer.root.t));
-    const double off = error * std::abs(glm::dot(answer.root.normal, pixel.ray.direction));
-    if (aov.triangle != answer.root.triangle && !(off <= kTie * scene.radius)) {
+    const PixelError error = pixel_error(params, x, y, answer, aov);
+    if (aov.triangle != answer.root.triangle && !(error.off_surface <= kTie * scene.radius)) {
       ++accuracy.wrong_patches;
       continue;
     }
-    errors.off_surface.push_back(off / scene.radius);
-    errors.depth_ulp.push_back(error / ulp_of(aov.normal_z.w));
+    errors.off_surface.push_back(error.off_surface / scene.radius);
+    errors.depth_ulp.push_back(error.depth_ulp);
     // A tie's normal is that of the other face.
     if (aov.triangle == answer.root.triangle) {
       errors.normal_degrees.push_back(degrees_between(dvec3(aov.geometric_u), answer.root.normal));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "app/bake.h"
 #include "app/frame.h"
@@ -30,6 +31,17 @@ struct Accuracy {
 
 // Two triangles whose depths agree to this part of the scene's radius share an edge there: a tie.
 constexpr double kTie = 1e-6;
+
+// A colour or an output that is not a number.
+bool has_nan(const vec4& color, const PixelAovs& aov);
+
+// Of a pixel's depth, where both the frame and the oracle hit.
+struct PixelError {
+  double off_surface;  // |depth error| times |n.view|
+  double depth_ulp;    // |depth error| in units in the last place of the depth
+};
+PixelError pixel_error(const TraceParams& params, uint32_t x, uint32_t y,
+                       const OracleAnswer& answer, const PixelAovs& aov);
 
 // frame: with AOVs, of the same size. Throws std::logic_error if it is not.
 Accuracy accuracy_of(const Frame& frame, const OracleFrame& truth, const BakedScene& scene,

@@ -15,6 +15,7 @@
 #include "app/json_text.h"
 #include "app/mesh_builder.h"
 #include "app/oracle_tracer.h"
+#include "app/pipeline_store.h"
 #include "app/progress.h"
 #include "app/trace_settings.h"
 #include "app/vulkan_tracer.h"
@@ -82,12 +83,7 @@ std::vector<Row> measure_model(const gpu::Device& device, const AccuracyOptions&
   for (const uint surface : options.surfaces) {
     for (const uint shell : options.shells) {
       const BakedScene scene = bake_with_cages(mesh, {surface, options.alpha, shell});
-      TraceSettings settings;
-      settings.width = options.width;
-      settings.height = options.height;
-      settings.camera =
-          framing_camera(mesh.positions, scene.origin, 45.0, {0.0, 1.0, 0.0},
-                         static_cast<double>(options.width) / static_cast<double>(options.height));
+      TraceSettings settings = framed_settings(mesh, scene, options.width, options.height);
       Progress progress(fmt::format("oracle, {}", model), options.height);
       const OracleFrame truth = trace_with_oracle(scene, make_params(scene, settings),
                                                   [&](uint32_t y) { progress.show(y); });
@@ -101,12 +97,6 @@ std::vector<Row> measure_model(const gpu::Device& device, const AccuracyOptions&
   return rows;
 }
 
-// The base name without its ending.
-std::string short_name(const std::string& path) {
-  const std::size_t begin = path.find_last_of('/') + 1;
-  return path.substr(begin, path.find_last_of('.') - begin);
-}
-
 std::string verdict(const Row& row) {
   if (row.solver == SOLVER_BISECT) return "";
   return keeps_promise(row.accuracy) ? "pass" : "FAIL";
@@ -118,7 +108,7 @@ std::string markdown_of(const Row& row) {
       "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.1e} | {:.1e} | {:.1e} | {:.2g} | {:.2g} | "
       "{:.4f} | "
       "{:.1f} | {} | {:.0f} | {} |\n",
-      short_name(row.model), surface_name(row.choice.surface), shell_name(row.choice.shell),
+      model_name(row.model), surface_name(row.choice.surface), shell_name(row.choice.shell),
       solver_name(row.solver), a.hits, a.undecidable, a.wrong_hits, a.missed, a.wrong_patches,
       a.off_surface.p50, a.off_surface.p99, a.off_surface.max, a.depth_ulp.p50, a.depth_ulp.p99,
       a.normal_degrees.p99, a.median_evaluations, row.cpu_differs, row.gpu_ms, verdict(row));
@@ -129,10 +119,6 @@ constexpr const char* kHeader =
     "off p50 | "
     "off p99 | off max | ulp p50 | ulp p99 | normal p99 | evals | cpu differs | ms | |\n"
     "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
-
-nlohmann::ordered_json json_of(const Quantiles& q) {
-  return {{"p50", q.p50}, {"p99", q.p99}, {"max", q.max}};
-}
 
 nlohmann::ordered_json json_of(const Row& row) {
   const Accuracy& a = row.accuracy;
@@ -163,6 +149,7 @@ nlohmann::ordered_json json_of(const Row& row) {
 int accuracy(const AccuracyOptions& options) {
   const gpu::Instance instance(false);
   const gpu::Device device(instance, options.device);
+  const PipelineStore store(device, cache_folder());
   std::optional<AtomicFile> file;
   if (!options.json.empty()) file.emplace(options.json);
   fmt::print("device {}, driver {}, {}x{}\n\n{}", device.report().name, device.report().driver,

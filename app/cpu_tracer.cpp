@@ -20,6 +20,16 @@ void walk_through(Kernel& kernel, const Kernel::PixelRay& ray, in_float::Walk& w
   }
 }
 
+// What a pixel's ray has met, in its shadow or not.
+void cast_shadow(Kernel& kernel, const glm::vec3& view, PixelAovs& met, vec4& color) {
+  const Kernel::PixelRay ray = kernel.shadow_ray(met, view);
+  in_float::Walk walk = kernel.shadow_walk_begun(met, view, kSteps);
+  walk_through(kernel, ray, walk);
+  if (walk.hit.triangle != NO_TRIANGLE) color = kernel.shadow_color();
+  met.evaluations += walk.counts.evaluations;
+  met.candidates += walk.counts.candidates;
+}
+
 }  // namespace
 
 void trace_on_cpu(const BakedScene& scene, const TraceParams& params, const KernelChoice& choice,
@@ -28,6 +38,8 @@ void trace_on_cpu(const BakedScene& scene, const TraceParams& params, const Kern
   const Kernel shared = in_float::kernel_of(scene, params, choice);
   const auto row = [&](uint32_t y) {
     Kernel kernel = shared;
+    Kernel shadows = shared;
+    shadows.SHADOWS = true;
     for (uint32_t x = 0; x < params.width; ++x) {
       const std::size_t pixel = std::size_t{y} * params.width + x;
       PixelAovs aovs{};
@@ -35,6 +47,7 @@ void trace_on_cpu(const BakedScene& scene, const TraceParams& params, const Kern
       in_float::Walk walk = kernel.walk_begun(kSteps);
       walk_through(kernel, ray, walk);
       kernel.finish_pixel(ray, walk, frame.colors[pixel], aovs);
+      if (choice.shadows) cast_shadow(shadows, ray.view, aovs, frame.colors[pixel]);
       if (choice.aovs) frame.aovs[pixel] = aovs;
     }
   };

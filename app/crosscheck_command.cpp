@@ -31,10 +31,10 @@ int crosscheck(const CrosscheckOptions& options) {
   std::vector<TraceResult> results;
   for (const Backend backend : options.backends) {
     const Accel accel = chosen_accel(render, backend, loaded.scene.cages.size());
-    if (accel == Accel::bvh) add_bvh(loaded);
+    if (goes_by_bvh(render, accel)) add_bvh(loaded);
     results.push_back(trace_scene({backend, render.gl_path, render.device, false, 1, false},
                                   loaded.scene, loaded.params,
-                                  {render.solver, true, false, accel}));
+                                  {render.solver, true, false, accel, render.shadows}));
     const std::string path = backend != Backend::opengl           ? ""
                              : render.gl_path == GlPath::fragment ? " (fragment)"
                                                                   : " (compute)";

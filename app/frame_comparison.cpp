@@ -150,17 +150,14 @@ std::string to_text(const FrameComparison& c) {
 }
 
 nlohmann::ordered_json to_json(const FrameComparison& c) {
-  const auto quantiles = [](const Quantiles& q) {
-    return nlohmann::ordered_json{{"p50", q.p50}, {"p99", q.p99}, {"max", q.max}};
-  };
   nlohmann::ordered_json json{
       {"pixels", c.pixels}, {"hits", c.hits}, {"hit_mismatches", c.hit_mismatches}};
   if (c.depth) {
     json["patch_mismatches"] = c.depth->patch_mismatches;
     json["z_pixels"] = c.depth->pixels;
     json["z_bit_equal"] = c.depth->bit_equal;
-    json["z_ulp"] = quantiles(c.depth->ulp);
-    json["normal_degrees"] = quantiles(c.depth->normal_degrees);
+    json["z_ulp"] = json_of(c.depth->ulp);
+    json["normal_degrees"] = json_of(c.depth->normal_degrees);
   }
   json["color_rmse"] = c.color_rmse;
   json["color_max"] = c.color_max;

@@ -11,6 +11,7 @@
 #include "app/hard_judge.h"
 #include "app/interrupt.h"
 #include "app/json_text.h"
+#include "app/pipeline_store.h"
 
 namespace trisect {
 namespace {
@@ -112,6 +113,7 @@ int hardcases(const HardcasesOptions& options) {
   if (options.backend == Backend::cpu) return run_on(options, cpu_hard_backend());
   const gpu::Instance instance(false);
   const gpu::Device device(instance, options.device);
+  const PipelineStore store(device, cache_folder());
   return run_on(options, vulkan_hard_backend(device));
 }
 

@@ -18,6 +18,14 @@ ImageFormat image_format(const std::filesystem::path& path) {
   throw UsageError(path.string() + ": an image's name must end in .png or .exr.");
 }
 
+void write_image(const Frame& frame, ImageFormat format, bool evals, const AtomicFile& file) {
+  if (format == ImageFormat::png) {
+    write_png(frame, file);
+  } else {
+    write_exr(frame, evals, file);
+  }
+}
+
 float linear_from_srgb(float encoded) {
   const auto x = static_cast<double>(encoded);
   return static_cast<float>(x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4));

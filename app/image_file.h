@@ -27,4 +27,7 @@ void write_png(const Frame& frame, const AtomicFile& file);
 // file.
 void write_exr(const Frame& frame, bool evals, const AtomicFile& file);
 
+// By one of the two. evals: as write_exr has it.
+void write_image(const Frame& frame, ImageFormat format, bool evals, const AtomicFile& file);
+
 }  // namespace trisect

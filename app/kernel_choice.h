@@ -17,6 +17,16 @@ struct KernelChoice {
   bool aovs = false;            // frames have more than colour
   bool counts = false;          // evaluations and candidates, in the AOVs
   Accel accel = Accel::list;
+  // Robust solver; of accel tiles they go by the scene's bvh.
+  bool shadows = false;
+  // For measurements, of accel tiles: where a part can be is told by its ball, as the thesis has
+  // it, and not by its control points.
+  bool balls = false;
+
+  bool operator==(const KernelChoice&) const = default;
+
+  // Shadows start from them.
+  [[nodiscard]] bool writes_aovs() const { return aovs || shadows; }
 };
 
 }  // namespace trisect

@@ -11,9 +11,10 @@ Kernel kernel_of(const BakedScene& scene, const TraceParams& params, const Kerne
           scene.choice.surface,
           scene.choice.shell,
           choice.solver,
-          choice.aovs,
+          choice.writes_aovs(),
           choice.counts,
-          has_groups(scene)};
+          has_groups(scene),
+          false};
 }
 
 }  // namespace trisect::in_float

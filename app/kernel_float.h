@@ -29,6 +29,7 @@ struct Kernel {
   bool AOVS;
   bool COUNTS;
   bool GROUPS;
+  bool SHADOWS;
 
 #include "shaders/polar_angle.glsl"
 // Vectors need the angle.
@@ -49,6 +50,8 @@ struct Kernel {
 #pragma GCC diagnostic pop
 // The parts, above, are what a ray goes through.
 #include "shaders/trace.glsl"
+// What has been met casts shadows.
+#include "shaders/shadow.glsl"
 // What a camera sees needs its frame, above.
 #include "shaders/view_part.glsl"
 // The box and the lines of that.
@@ -60,7 +63,8 @@ struct Kernel {
 #undef OUT
 #undef INOUT
 
-// The kernel that a back end makes of the same scene and choice. Keeps references to both of the
+// The kernel that a back end makes of the same scene and choice, for what a camera sees: SHADOWS is
+// false. Keeps references to both of the
 // first two. Each thread needs a copy: GLSL knows no const functions.
 Kernel kernel_of(const BakedScene& scene, const TraceParams& params, const KernelChoice& choice);
 

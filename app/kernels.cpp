@@ -10,6 +10,7 @@ namespace {
 #include "cast_by_bvh.spv.h"
 #include "cast_rays.spv.h"
 #include "fill_sky.spv.h"
+#include "floor.spv.h"
 #include "search_packets.spv.h"
 #include "search_packets_at.spv.h"
 #include "trace_bvh.spv.h"
@@ -22,6 +23,11 @@ namespace {
 #include "view_parts.spv.h"
 // Strings of GLSL.
 #include "full_screen.vert.glsl.h"
+#include "sky.frag.glsl.h"
+#include "tessellated.frag.glsl.h"
+#include "tessellated.tesc.glsl.h"
+#include "tessellated.tese.glsl.h"
+#include "tessellated.vert.glsl.h"
 #include "trace_list.comp.glsl.h"
 #include "trace_list.frag.glsl.h"
 
@@ -39,12 +45,25 @@ const std::span<const uint32_t> kSearchPacketsSpirv(search_packets_spirv);
 const std::span<const uint32_t> kSearchPacketsAtSpirv(search_packets_at_spirv);
 const std::span<const uint32_t> kTraceBvhSpirv(trace_bvh_spirv);
 const std::span<const uint32_t> kTraceBvhAtSpirv(trace_bvh_at_spirv);
+const std::span<const uint32_t> kFloorSpirv(floor_spirv);
 const std::span<const uint32_t> kCastRaysSpirv(cast_rays_spirv);
 const std::span<const uint32_t> kCastByBvhSpirv(cast_by_bvh_spirv);
 
 const char* const kTraceListComp = trace_list_comp_glsl;
 const char* const kTraceListFrag = trace_list_frag_glsl;
 const char* const kFullScreenVert = full_screen_vert_glsl;
+const char* const kTessellatedVert = tessellated_vert_glsl;
+const char* const kTessellatedTesc = tessellated_tesc_glsl;
+const char* const kTessellatedTese = tessellated_tese_glsl;
+const char* const kTessellatedFrag = tessellated_frag_glsl;
+const char* const kSkyFrag = sky_frag_glsl;
+
+std::span<const uint32_t> newest(const KernelCode* code, const char* name,
+                                 std::span<const uint32_t> built_in) {
+  if (code == nullptr) return built_in;
+  const auto found = code->find(name);
+  return found == code->end() ? built_in : found->second;
+}
 
 gpu::KernelInterface frame_interface() {
   return {{{BINDING_PARAMS, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
@@ -62,6 +81,12 @@ gpu::KernelInterface frame_interface() {
            {BINDING_BVH, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {BINDING_ADDRESSES, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER}},
           sizeof(TilePush)};
+}
+
+gpu::KernelInterface floor_interface() {
+  return {{{BINDING_PARAMS, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
+           {BINDING_COLOR, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}},
+          0};
 }
 
 gpu::KernelInterface cast_rays_interface() {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "app/kernel_code.h"
 #include "app/shared.h"
 #include "vk/kernel.h"
 
@@ -22,16 +23,28 @@ extern const std::span<const uint32_t> kTraceBvhSpirv;
 extern const std::span<const uint32_t> kTracePacketsAtSpirv;
 extern const std::span<const uint32_t> kSearchPacketsAtSpirv;
 extern const std::span<const uint32_t> kTraceBvhAtSpirv;
+extern const std::span<const uint32_t> kFloorSpirv;
 extern const std::span<const uint32_t> kCastRaysSpirv;
 extern const std::span<const uint32_t> kCastByBvhSpirv;
+
+// The kernel of that name in `code`; built_in if there is none, or if code is null.
+std::span<const uint32_t> newest(const KernelCode* code, const char* name,
+                                 std::span<const uint32_t> built_in);
 
 // GLSL for OpenGL, without a version; frame_buffers.glsl says what else goes ahead of it.
 extern const char* const kTraceListComp;
 extern const char* const kTraceListFrag;
 extern const char* const kFullScreenVert;
+extern const char* const kTessellatedVert;
+extern const char* const kTessellatedTesc;
+extern const char* const kTessellatedTese;
+extern const char* const kTessellatedFrag;
+extern const char* const kSkyFrag;
 
 // Of the kernels that make a frame: they share a descriptor set.
 gpu::KernelInterface frame_interface();
 gpu::KernelInterface cast_rays_interface();
+// Of the kernel that writes an image and nothing else.
+gpu::KernelInterface floor_interface();
 
 }  // namespace trisect

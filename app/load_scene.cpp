@@ -27,8 +27,9 @@ auto timed(const std::string& name, double& ms, Step&& step) {
   return result;
 }
 
-TraceSettings settings_for(const RenderOptions& options, const Mesh& mesh,
-                           const BakedScene& scene) {
+}  // namespace
+
+TraceSettings settings_of(const RenderOptions& options, const Mesh& mesh, const BakedScene& scene) {
   TraceSettings settings;
   const uint32_t side = samples_across(options.spp);
   if (std::max(options.width, options.height) > kLargestSide / side) {
@@ -47,8 +48,6 @@ TraceSettings settings_for(const RenderOptions& options, const Mesh& mesh,
   return settings;
 }
 
-}  // namespace
-
 LoadedScene load_scene(const RenderOptions& options) {
   LoadedScene loaded{};
   const BuiltMesh built = timed("reading " + options.model, loaded.load_ms, [&] {
@@ -60,7 +59,7 @@ LoadedScene load_scene(const RenderOptions& options) {
     return options.solver == SOLVER_ROBUST ? bake_with_cages(built.mesh, choice)
                                            : bake(built.mesh, choice);
   });
-  loaded.params = make_params(loaded.scene, settings_for(options, built.mesh, loaded.scene));
+  loaded.params = make_params(loaded.scene, settings_of(options, built.mesh, loaded.scene));
   return loaded;
 }
 

@@ -9,6 +9,9 @@
 
 namespace trisect {
 
+// Throws UsageError if the image has too many rays a side.
+TraceSettings settings_of(const RenderOptions& options, const Mesh& mesh, const BakedScene& scene);
+
 struct LoadedScene {
   BakedScene scene;
   TraceParams params;

@@ -183,6 +183,10 @@ ObjFile parse_obj(std::string_view file_text, const std::string& name) {
   return std::move(reader.file);
 }
 
+std::string model_name(const std::filesystem::path& path) {
+  return path.stem().string();
+}
+
 ObjFile read_obj(const std::filesystem::path& path) {
   std::error_code unused;
   if (std::filesystem::is_directory(path, unused)) {

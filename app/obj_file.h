@@ -25,6 +25,9 @@ struct ObjFile {
   std::vector<uint32_t> sizes;      // corners of each polygon, three or more
 };
 
+// What a model is called: "teapot" of "assets/teapot.obj".
+std::string model_name(const std::filesystem::path& path);
+
 // Throws InputError with the file's name and, where one is at fault, the line: a file that cannot
 // be read, has no faces, a vertex or normal that is not three finite numbers, a face with fewer
 // than three corners or with an index of nothing.

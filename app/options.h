@@ -38,6 +38,7 @@ struct RenderOptions {
   std::optional<glm::dvec3> target;
   glm::dvec3 up{0.0, 1.0, 0.0};
   std::optional<glm::dvec3> light;
+  bool shadows = false;
   double fov = 45.0;
   std::optional<double> crease;
   Backend backend = Backend::vulkan;
@@ -47,6 +48,8 @@ struct RenderOptions {
   uint32_t runs = 1;
   uint32_t spp = 1;  // rays a pixel: a square number
   std::string stats;
+
+  bool operator==(const RenderOptions&) const = default;
 };
 
 struct AccuracyOptions {

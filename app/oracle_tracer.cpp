@@ -3,6 +3,9 @@
 #include <cmath>
 
 #include "app/kernel_float.h"
+#include "app/parallel_rows.h"
+#include "app/surface_double.h"
+#include "app/widen.h"
 
 namespace trisect {
 
@@ -53,6 +56,38 @@ Frame frame_of(const OracleFrame& answers, const BakedScene& scene, const TraceP
     }
   }
   return frame;
+}
+
+OracleAnswer oracle_shadow(const Oracle& oracle, const BakedScene& scene, const TraceParams& params,
+                           uint32_t triangle, const dvec3& weights, const dvec3& view) {
+  const in_double::Shape shape = shape_of(scene.choice);
+  const in_double::Triangle tri = widen(scene.triangles[triangle]);
+  const dvec3 light = glm::normalize(dvec3(params.light));
+  const dvec3 normal = in_double::facing(in_double::geometric_normal(shape, tri, weights), view);
+  if (glm::dot(normal, light) <= 0.0) {
+    return {true, true, {0.0, triangle, weights, normal}};
+  }
+  const OracleRay ray{in_double::departure(shape, tri, weights, normal), light};
+  return oracle.first(ray, kMotion * static_cast<double>(params.anchor.w));
+}
+
+void cast_oracle_shadows(const OracleFrame& answers, const BakedScene& scene,
+                         const TraceParams& params, Frame& frame,
+                         const std::function<void(uint32_t)>& progress) {
+  const Oracle oracle(scene);
+  const auto row = [&](uint32_t y) {
+    in_float::Kernel kernel = in_float::kernel_of(scene, params, {SOLVER_ROBUST, true, false});
+    for (uint32_t x = 0; x < frame.width; ++x) {
+      const std::size_t i = std::size_t{y} * frame.width + x;
+      const OracleRoot& root = answers.pixels[i].root;
+      if (!answers.pixels[i].hit) continue;
+      const dvec3 view = oracle_pixel_ray(params, x, y).ray.direction;
+      if (oracle_shadow(oracle, scene, params, root.triangle, root.weights, view).hit) {
+        frame.colors[i] = kernel.shadow_color();
+      }
+    }
+  };
+  parallel_rows(frame.height, row, progress);
 }
 
 }  // namespace trisect

@@ -26,6 +26,16 @@ constexpr double kMotion = 1e-7;
 OracleFrame trace_with_oracle(const BakedScene& scene, const TraceParams& params,
                               const std::function<void(uint32_t)>& progress);
 
+// Whether light reaches what a ray along `view` met at these weights of a triangle: what it meets
+// on its way to the light. Where the surface itself turns away from the light, that is the surface.
+OracleAnswer oracle_shadow(const Oracle& oracle, const BakedScene& scene, const TraceParams& params,
+                           uint32_t triangle, const glm::dvec3& weights, const glm::dvec3& view);
+
+// Darkens the pixels of frame_of() that light does not reach.
+void cast_oracle_shadows(const OracleFrame& answers, const BakedScene& scene,
+                         const TraceParams& params, Frame& frame,
+                         const std::function<void(uint32_t)>& progress);
+
 // The answers as a frame, shaded as the robust solver's are, with AOVs; rounded to single
 // precision.
 Frame frame_of(const OracleFrame& answers, const BakedScene& scene, const TraceParams& params);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <vector>
 
 namespace trisect {
@@ -14,6 +15,9 @@ struct Quantiles {
 };
 
 Quantiles quantiles_of(std::vector<double> values);
+
+// Its members under their names.
+nlohmann::ordered_json json_of(const Quantiles& quantiles);
 
 // Distance from |x| to the next larger single.
 double ulp_of(float x);

@@ -12,7 +12,7 @@ namespace {
 
 // Rays in device memory at a time, and bytes moved at a time.
 constexpr std::size_t kBatch = std::size_t{1} << 18U;
-constexpr std::size_t kStagingBytes = kBatch * sizeof(CastRay);
+constexpr std::size_t kBatchBytes = kBatch * sizeof(CastRay);
 
 }  // namespace
 
@@ -34,7 +34,7 @@ RayCaster::RayCaster(const gpu::Device& device, const BakedScene& scene, const T
           kernel ? std::move(kernel)
                  : kernel_for(device, scene.choice, solver, has_groups(scene), !scene.bvh.empty())),
       commands_(device),
-      staging_(device, kStagingBytes),
+      staging_(device, kBatchBytes),
       params_(device, sizeof(TraceParams), gpu::Memory::device, "trace parameters"),
       scene_(device, scene, device.limits().maxStorageBufferRange, false),
       rays_(device, kBatch * sizeof(CastRay), gpu::Memory::device, "rays"),

@@ -37,15 +37,6 @@ void expect_distinct(const RenderOptions& options) {
   expect(options.stats, options.output);
 }
 
-WorkCounts count_work(const Frame& frame) {
-  WorkCounts counts;
-  for (const PixelAovs& pixel : frame.aovs) {
-    counts.evaluations += pixel.evaluations;
-    counts.candidates += pixel.candidates;
-  }
-  return counts;
-}
-
 }  // namespace
 
 int render(const RenderOptions& options) {
@@ -53,7 +44,7 @@ int render(const RenderOptions& options) {
   expect_distinct(options);
   LoadedScene loaded = load_scene(options);
   const Accel accel = chosen_accel(options, options.backend, loaded.scene.cages.size());
-  if (accel == Accel::bvh) add_bvh(loaded);
+  if (goes_by_bvh(options, accel)) add_bvh(loaded);
 
   AtomicFile image(options.output);
   std::optional<AtomicFile> stats;
@@ -62,7 +53,7 @@ int render(const RenderOptions& options) {
   const bool aovs = format == ImageFormat::exr || options.evals;
   TraceResult traced = trace_scene(
       {options.backend, options.gl_path, options.device, options.validation, options.runs, true},
-      loaded.scene, loaded.params, {options.solver, aovs, options.evals, accel});
+      loaded.scene, loaded.params, {options.solver, aovs, options.evals, accel, options.shadows});
   traced.frame = averaged(std::move(traced.frame), samples_across(options.spp));
   RenderStatistics statistics;
   statistics.accel = accel;
@@ -71,18 +62,14 @@ int render(const RenderOptions& options) {
   statistics.patches = loaded.scene.triangles.size();
   statistics.hits = traced.frame.hits();
   statistics.scene_bytes = device_bytes(loaded.scene);
-  if (options.evals) statistics.counts = count_work(traced.frame);
+  if (options.evals) statistics.counts = work_of(traced.frame);
   statistics.frames = traced.frames;
   statistics.load_ms = loaded.load_ms;
   statistics.bake_ms = loaded.bake_ms;
   statistics.bvh_ms = loaded.bvh_ms;
   statistics.upload_ms = traced.upload_ms;
 
-  if (format == ImageFormat::png) {
-    write_png(traced.frame, image);
-  } else {
-    write_exr(traced.frame, options.evals, image);
-  }
+  write_image(traced.frame, format, options.evals, image);
   if (stats) stats->write(to_json(options, statistics));
   image.commit();
   if (stats) stats->commit();

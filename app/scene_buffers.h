@@ -20,6 +20,11 @@ class SceneBuffers {
 
   void upload(gpu::Staging& staging, gpu::Commands& commands, const BakedScene& scene);
 
+  // Of all of them.
+  [[nodiscard]] std::size_t bytes() const {
+    return triangles_.size() + cages_.size() + bvh_.size() + addresses_.size();
+  }
+
   [[nodiscard]] bool by_address() const { return by_address_; }
 
   // What kernels bind as BINDING_TRIANGLES, BINDING_CAGES, BINDING_BVH and BINDING_ADDRESSES.

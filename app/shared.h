@@ -38,6 +38,8 @@ static_assert(offsetof(TilePush, first_group) == 20);
 static_assert(sizeof(ViewPart) == 192);
 static_assert(offsetof(ViewPart, P0) == 64);
 static_assert(offsetof(ViewPart, sizes) == 176);
+static_assert(sizeof(ScreenPush) == 32);
+static_assert(offsetof(ScreenPush, shown) == 16);
 static_assert(sizeof(PixelAovs) == 48);
 static_assert(offsetof(PixelAovs, geometric_u) == 16);
 static_assert(offsetof(PixelAovs, v) == 32);

@@ -18,16 +18,25 @@ Spread spread_over(const std::vector<FrameTime>& frames, double FrameTime::*time
   return spread_of(std::move(values));
 }
 
-nlohmann::ordered_json json_of(const Spread& spread) {
-  return {{"min", spread.min}, {"median", spread.median}, {"max", spread.max}};
-}
-
 }  // namespace
 
 Spread spread_of(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t n = values.size();
   return {values.front(), (values[(n - 1) / 2] + values[n / 2]) / 2.0, values.back()};
+}
+
+nlohmann::ordered_json json_of(const Spread& spread) {
+  return {{"min", spread.min}, {"median", spread.median}, {"max", spread.max}};
+}
+
+WorkCounts work_of(const Frame& frame) {
+  WorkCounts counts;
+  for (const PixelAovs& pixel : frame.aovs) {
+    counts.evaluations += pixel.evaluations;
+    counts.candidates += pixel.candidates;
+  }
+  return counts;
 }
 
 std::string to_json(const RenderOptions& options, const RenderStatistics& statistics) {
@@ -53,6 +62,7 @@ std::string to_json(const RenderOptions& options, const RenderStatistics& statis
     json["evals_total"] = statistics.counts->evaluations;
     json["candidates_total"] = statistics.counts->candidates;
   }
+  json["shadows"] = options.shadows;
   json["spp"] = options.spp;
   json["runs"] = options.runs;
   json["gpu_ms"] = json_of(spread_over(statistics.frames, &FrameTime::gpu_ms));

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/bake.h"
+#include "app/frame.h"
 #include "app/frame_time.h"
 #include "app/options.h"
 
@@ -22,11 +24,17 @@ struct Spread {
 
 Spread spread_of(std::vector<double> values);
 
+// Its members under their names.
+nlohmann::ordered_json json_of(const Spread& spread);
+
 // Work over all pixels.
 struct WorkCounts {
   uint64_t evaluations = 0;  // of a field (bisect) or of a surface with its derivatives (robust)
   uint64_t candidates = 0;   // triangles or parts of triangles whose ball a pixel's ray meets
 };
+
+// Of a frame with AOVs; 0 if nothing was counted.
+WorkCounts work_of(const Frame& frame);
 
 struct RenderStatistics {
   std::string device;

@@ -9,6 +9,7 @@
 #include "app/opengl/context.h"
 #include "app/opengl/tracer.h"
 #include "app/oracle_tracer.h"
+#include "app/pipeline_store.h"
 #include "app/progress.h"
 #include "app/stopwatch.h"
 #include "app/vulkan_tracer.h"
@@ -32,6 +33,7 @@ void trace_on_vulkan(const TraceRequest& request, const BakedScene& scene,
   const gpu::Instance instance(request.validation);
   {
     const gpu::Device device(instance, request.device);
+    const PipelineStore store(device, cache_folder());
     result.device = device.report().name;
     result.driver = device.report().driver;
     VulkanTracer tracer(device, scene, params.width, params.height, choice);
@@ -50,14 +52,14 @@ void trace_on_opengl(const TraceRequest& request, const BakedScene& scene,
   run_on_device(request, params, tracer, result);
 }
 
-// `frame_once` renders one frame, told how far it is.
+// `frame_once` renders one frame, told how many rows are done.
 template <typename FrameOnce>
-void trace_on_host(const TraceRequest& request, uint32_t height, const std::string& driver,
+void trace_on_host(const TraceRequest& request, uint32_t rows_of_work, const std::string& driver,
                    TraceResult& result, FrameOnce&& frame_once) {
   result.device = fmt::format("CPU, {} threads", std::thread::hardware_concurrency());
   result.driver = driver;
   for (uint32_t run = 0; run < request.runs; ++run) {
-    Progress progress("rendering", height);
+    Progress progress("rendering", rows_of_work);
     const Stopwatch watch;
     frame_once([&](uint32_t rows) { progress.show(rows); });
     FrameTime time;
@@ -87,10 +89,13 @@ TraceResult trace_scene(const TraceRequest& request, const BakedScene& scene,
                     });
       break;
     case Backend::oracle:
-      trace_on_host(request, params.height, "the oracle, double precision", result,
-                    [&](const RowsDone& progress) {
-                      result.frame =
-                          frame_of(trace_with_oracle(scene, params, progress), scene, params);
+      trace_on_host(request, params.height * (choice.shadows ? 2 : 1),
+                    "the oracle, double precision", result, [&](const RowsDone& progress) {
+                      const OracleFrame answers = trace_with_oracle(scene, params, progress);
+                      result.frame = frame_of(answers, scene, params);
+                      if (!choice.shadows) return;
+                      cast_oracle_shadows(answers, scene, params, result.frame,
+                                          [&](uint32_t rows) { progress(params.height + rows); });
                     });
       break;
   }

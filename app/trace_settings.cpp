@@ -4,6 +4,17 @@
 
 namespace trisect {
 
+TraceSettings framed_settings(const Mesh& mesh, const BakedScene& scene, uint32_t width,
+                              uint32_t height) {
+  TraceSettings settings;
+  settings.width = width;
+  settings.height = height;
+  settings.camera =
+      framing_camera(mesh.positions, scene.origin, settings.camera.fov, settings.camera.up,
+                     static_cast<double>(width) / static_cast<double>(height));
+  return settings;
+}
+
 TraceParams make_params(const BakedScene& scene, const TraceSettings& settings) {
   TraceParams params{};
   params.width = settings.width;

@@ -6,6 +6,7 @@
 
 #include "app/bake.h"
 #include "app/camera.h"
+#include "app/mesh.h"
 #include "app/shared.h"
 
 namespace trisect {
@@ -21,6 +22,10 @@ struct TraceSettings {
   double min_delta = 1e-4;
   glm::dvec3 light{0.35, 0.8, 0.5};  // toward the light, any length
 };
+
+// Of an image of the whole mesh, seen as `trisect render` sees it by default.
+TraceSettings framed_settings(const Mesh& mesh, const BakedScene& scene, uint32_t width,
+                              uint32_t height);
 
 // Throws UsageError if the camera is none.
 TraceParams make_params(const BakedScene& scene, const TraceSettings& settings);

@@ -20,18 +20,20 @@ constexpr std::size_t kStagingBytes = std::size_t{32} << 20U;
 std::vector<gpu::Specialization> constants_of(const BakedScene& scene, const KernelChoice& choice) {
   return {
       {CONSTANT_SURFACE, scene.choice.surface},   {CONSTANT_SHELL, scene.choice.shell},
-      {CONSTANT_SOLVER, choice.solver},           {CONSTANT_AOVS, choice.aovs ? 1U : 0U},
-      {CONSTANT_COUNTS, choice.counts ? 1U : 0U}, {CONSTANT_GROUPS, has_groups(scene) ? 1U : 0U}};
+      {CONSTANT_SOLVER, choice.solver},           {CONSTANT_AOVS, choice.writes_aovs() ? 1U : 0U},
+      {CONSTANT_COUNTS, choice.counts ? 1U : 0U}, {CONSTANT_GROUPS, has_groups(scene) ? 1U : 0U},
+      {CONSTANT_BALLS, choice.balls ? 1U : 0U}};
 }
 
 std::optional<TileLists> lists_for(const gpu::Device& device, const BakedScene& scene,
-                                   const KernelChoice& choice, uint32_t width, uint32_t band_rows) {
+                                   const KernelChoice& choice, const KernelCode* code,
+                                   uint32_t width, uint32_t band_rows) {
   if (choice.accel != Accel::tiles) return std::nullopt;
   if (device.subgroup_size() == 0) {
     throw gpu::Error(device.report().name +
                      " lacks the subgroup operations of --accel tiles; use --accel list.");
   }
-  return std::optional<TileLists>(std::in_place, device, constants_of(scene, choice),
+  return std::optional<TileLists>(std::in_place, device, constants_of(scene, choice), code,
                                   static_cast<uint32_t>(scene.cages.size()), width, band_rows);
 }
 
@@ -46,104 +48,177 @@ std::vector<NamedKernel> kernel_names(const gpu::Device& device, Accel accel, bo
     case Accel::tiles:
       return {{kTraceTilesSpirv, "trace_tiles"}, {kTraceUndecidedSpirv, "trace_undecided"}};
     case Accel::bvh: {
-      const NamedKernel alone{by_address ? kTraceBvhAtSpirv : kTraceBvhSpirv, "trace_bvh"};
+      const NamedKernel alone = by_address ? NamedKernel{kTraceBvhAtSpirv, "trace_bvh_at"}
+                                           : NamedKernel{kTraceBvhSpirv, "trace_bvh"};
       // A subgroup tests the eight children of a node at once.
       if (device.subgroup_size() < 8) return {alone};
-      return {{by_address ? kTracePacketsAtSpirv : kTracePacketsSpirv, "trace_packets"},
-              {by_address ? kSearchPacketsAtSpirv : kSearchPacketsSpirv, "search_packets"},
-              alone};
+      if (by_address) {
+        return {{kTracePacketsAtSpirv, "trace_packets_at"},
+                {kSearchPacketsAtSpirv, "search_packets_at"},
+                alone};
+      }
+      return {
+          {kTracePacketsSpirv, "trace_packets"}, {kSearchPacketsSpirv, "search_packets"}, alone};
     }
     default:
       return {{kTraceListSpirv, "trace_list"}};
   }
 }
 
-std::vector<gpu::Kernel> kernels_for(const gpu::Device& device, const BakedScene& scene,
-                                     const KernelChoice& choice, bool by_address) {
+std::vector<gpu::Kernel> kernels_for(const gpu::Device& device, Accel accel, bool by_address,
+                                     const std::vector<gpu::Specialization>& constants,
+                                     const KernelCode* code) {
   std::vector<gpu::Kernel> kernels;
-  for (const NamedKernel& kernel : kernel_names(device, choice.accel, by_address)) {
-    kernels.emplace_back(device, kernel.spirv, frame_interface(), constants_of(scene, choice),
-                         kernel.name);
+  for (const NamedKernel& kernel : kernel_names(device, accel, by_address)) {
+    kernels.emplace_back(device, newest(code, kernel.name, kernel.spirv), frame_interface(),
+                         constants, kernel.name);
   }
   return kernels;
 }
 
+// For rays that start from what a frame's have met: any ray may.
+std::vector<gpu::Kernel> shadow_kernels_for(const gpu::Device& device, const BakedScene& scene,
+                                            const KernelChoice& choice, bool by_address,
+                                            const KernelCode* code) {
+  if (!choice.shadows) return {};
+  std::vector<gpu::Specialization> constants = constants_of(scene, choice);
+  constants.push_back({CONSTANT_SHADOWS, 1U});
+  const Accel accel = choice.accel == Accel::list ? Accel::list : Accel::bvh;
+  return kernels_for(device, accel, by_address, constants, code);
+}
+
 }  // namespace
 
+VulkanTracer::ImageBuffers::ImageBuffers(const gpu::Device& device, uint32_t width,
+                                         uint32_t band_rows, bool with_aovs)
+    : colors(device, std::size_t{width} * band_rows * sizeof(vec4), gpu::Memory::device, "colors"),
+      // A binding wants a buffer; without AOVs nothing is written to it.
+      aovs(device, (with_aovs ? std::size_t{width} * band_rows : 1) * sizeof(PixelAovs),
+           gpu::Memory::device, "AOVs"),
+      queue(device, groups_of_band(width, 0, band_rows).most() * kGroupRays) {}
+
 VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, uint32_t width,
-                           uint32_t height, const KernelChoice& choice, std::size_t buffer_limit)
+                           uint32_t height, const KernelChoice& choice, std::size_t buffer_limit,
+                           const KernelCode* code)
     : device_(device),
       width_(width),
       height_(height),
       aovs_(choice.aovs),
+      writes_aovs_(choice.writes_aovs()),
       buffer_limit_(std::min<std::size_t>(buffer_limit, device.limits().maxStorageBufferRange)),
-      band_rows_(rows_in_a_band(device.report().name, buffer_limit_, width, height, choice.aovs)),
-      tiles_(lists_for(device, scene, choice, width, band_rows_)),
+      band_rows_(rows_in_a_band(device.report().name, buffer_limit_, width, height, writes_aovs_)),
+      tiles_(lists_for(device, scene, choice, code, width, band_rows_)),
       scene_(device, scene, buffer_limit_, choice.accel == Accel::bvh),
-      kernels_(kernels_for(device, scene, choice, scene_.by_address())),
+      kernels_(kernels_for(device, choice.accel, scene_.by_address(), constants_of(scene, choice),
+                           code)),
+      shadow_kernels_(shadow_kernels_for(device, scene, choice, scene_.by_address(), code)),
       commands_(device),
       staging_(device, kStagingBytes),
       params_(device, sizeof(TraceParams), gpu::Memory::device, "trace parameters"),
-      colors_(device, std::size_t{width} * band_rows_ * sizeof(vec4), gpu::Memory::device,
-              "colors"),
-      // A binding wants a buffer; without AOVs nothing is written to it.
-      aovs_buffer_(
-          device,
-          choice.aovs ? std::size_t{width} * band_rows_ * sizeof(PixelAovs) : sizeof(PixelAovs),
-          gpu::Memory::device, "AOVs"),
-      queue_(device, groups_of_band(width, 0, band_rows_).most() * kGroupRays),
+      image_(device, width, band_rows_, writes_aovs_),
       unused_(device, sizeof(vec4), gpu::Memory::device, "unused"),
-      bound_(device, kernels_[0],
-             {&params_, &scene_.triangles(), &colors_, &aovs_buffer_, &scene_.cages(),
-              &queue_.paused(), &queue_.queued(), tiles_ ? &tiles_->view_parts() : &unused_,
-              tiles_ ? &tiles_->counts() : &unused_, tiles_ ? &tiles_->parts() : &unused_,
-              tiles_ ? &tiles_->order() : &unused_, tiles_ ? &tiles_->seen() : &unused_,
-              &scene_.bvh(), &scene_.addresses()}) {
+      bound_(bind()) {
   const Stopwatch watch;
   scene_.upload(staging_, commands_, scene);
   upload_ms_ = watch.milliseconds();
 }
 
-FrameTime VulkanTracer::render(const TraceParams& params, Frame& frame,
-                               const std::function<void()>& between_submits) {
-  if (params.width != width_ || params.height != height_) {
+gpu::BoundBuffers VulkanTracer::bind() const {
+  return {device_,
+          kernels_[0],
+          {&params_, &scene_.triangles(), &image_.colors, &image_.aovs, &scene_.cages(),
+           &image_.queue.paused(), &image_.queue.queued(),
+           tiles_ ? &tiles_->view_parts() : &unused_, tiles_ ? &tiles_->counts() : &unused_,
+           tiles_ ? &tiles_->parts() : &unused_, tiles_ ? &tiles_->order() : &unused_,
+           tiles_ ? &tiles_->seen() : &unused_, &scene_.bvh(), &scene_.addresses()}};
+}
+
+void VulkanTracer::resize(uint32_t width, uint32_t height) {
+  const uint32_t rows =
+      rows_in_a_band(device_.report().name, buffer_limit_, width, height, writes_aovs_);
+  // Until all is there nothing fits: what throws leaves a tracer that can be resized again.
+  width_ = height_ = band_rows_ = 0;
+  image_ = ImageBuffers(device_, width, rows, writes_aovs_);
+  if (tiles_) tiles_->resize(device_, width, rows);
+  bound_ = bind();
+  width_ = width;
+  height_ = height;
+  band_rows_ = rows;
+}
+
+double VulkanTracer::look(const TraceParams& params) {
+  if (params.width > width_ || params.height > height_) {
     throw std::logic_error("the trace parameters are not for this tracer's image size");
   }
-  frame.resize(width_, height_, aovs_);
-  const std::span<vec4> colors(frame.colors);
-  const std::span<PixelAovs> aovs(frame.aovs);
+  staging_.upload(commands_, std::as_bytes(std::span(&params, 1)), params_);
+  return tiles_ ? tiles_->view(commands_, bound_) : 0.0;
+}
 
+FrameTime VulkanTracer::render(const TraceParams& params, Frame& frame,
+                               const std::function<void()>& between_submits) {
   const Stopwatch watch;
   FrameTime time;
-  staging_.upload(commands_, std::as_bytes(std::span(&params, 1)), params_);
-  if (tiles_) time.gpu_ms += tiles_->view(commands_, bound_);
-  for (uint32_t row = 0; row < height_; row += band_rows_) {
-    const uint32_t rows = std::min(band_rows_, height_ - row);
-    time.gpu_ms += render_band(row, rows, between_submits);
-    const std::size_t first = std::size_t{row} * width_;
-    const std::size_t count = std::size_t{rows} * width_;
-    staging_.download(commands_, colors_, std::as_writable_bytes(colors.subspan(first, count)));
-    if (aovs_) {
-      staging_.download(commands_, aovs_buffer_,
-                        std::as_writable_bytes(aovs.subspan(first, count)));
-    }
+  time.gpu_ms += look(params);
+  frame.resize(params.width, params.height, aovs_);
+  for (uint32_t row = 0; row < params.height; row += band_rows_) {
+    const uint32_t rows = std::min(band_rows_, params.height - row);
+    time.gpu_ms += render_band(params, row, rows, between_submits);
+    download_band(row, rows, frame);
   }
   time.wall_ms = watch.milliseconds();
   return time;
 }
 
-double VulkanTracer::render_band(uint32_t first_row, uint32_t rows,
+void VulkanTracer::download_band(uint32_t first_row, uint32_t rows, Frame& frame) {
+  const std::size_t first = std::size_t{first_row} * frame.width;
+  const std::size_t count = std::size_t{rows} * frame.width;
+  const std::span<vec4> colors(frame.colors);
+  staging_.download(commands_, image_.colors, std::as_writable_bytes(colors.subspan(first, count)));
+  if (!aovs_) return;
+  const std::span<PixelAovs> aovs(frame.aovs);
+  staging_.download(commands_, image_.aovs, std::as_writable_bytes(aovs.subspan(first, count)));
+}
+
+void VulkanTracer::fetch(const TraceParams& params, Frame& frame) {
+  frame.resize(params.width, params.height, aovs_);
+  download_band(0, params.height, frame);
+}
+
+double VulkanTracer::trace(const TraceParams& params,
+                           const std::function<void()>& between_submits) {
+  if (!holds_at_once(params.width, params.height)) {
+    throw std::logic_error("the frame does not fit into the output buffers");
+  }
+  const double ms = look(params);
+  return ms + render_band(params, 0, params.height, between_submits);
+}
+
+double VulkanTracer::render_band(const TraceParams& params, uint32_t first_row, uint32_t rows,
                                  const std::function<void()>& between_submits) {
-  GroupRange groups = groups_of_band(width_, first_row, rows);
+  const GroupRange groups = groups_of_band(params.width, first_row, rows);
   double gpu_ms = 0.0;
   if (tiles_) {
-    groups.begin = 0;
-    gpu_ms = tiles_->bin(commands_, bound_, first_row, rows, groups.end);
+    GroupRange seen{0, 0};
+    gpu_ms += tiles_->bin(commands_, bound_, params.width, first_row, rows, seen.end);
+    gpu_ms += run(kernels_, seen, first_row, rows, between_submits);
+  } else {
+    gpu_ms += run(kernels_, groups, first_row, rows, between_submits);
   }
+  if (!shadow_kernels_.empty()) {
+    gpu_ms += run(shadow_kernels_, groups, first_row, rows, between_submits);
+  }
+  return gpu_ms;
+}
+
+double VulkanTracer::run(std::span<const gpu::Kernel> kernels, GroupRange groups,
+                         uint32_t first_row, uint32_t rows,
+                         const std::function<void()>& between_submits) {
+  double gpu_ms = 0.0;
   for (uint32_t group = groups.begin; group < groups.end;) {
     const uint32_t count = std::min({budget_.groups(), groups.end - group, groups.most()});
-    const double ms = queue_.run(commands_, kernels_, bound_, TilePush{{}, group, first_row, rows},
-                                 count, kGroupRays, between_submits);
+    const double ms =
+        image_.queue.run(commands_, kernels, bound_, TilePush{{}, group, first_row, rows}, count,
+                         kGroupRays, between_submits);
     gpu_ms += ms;
     group += count;
     budget_.record(count, ms);

@@ -4,55 +4,99 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "app/bake.h"
 #include "app/buffer_limits.h"
 #include "app/frame.h"
 #include "app/frame_time.h"
 #include "app/kernel_choice.h"
+#include "app/kernel_code.h"
 #include "app/ray_queue.h"
 #include "app/scene_buffers.h"
 #include "app/shared.h"
 #include "app/submit_budget.h"
 #include "app/tile_lists.h"
+#include "app/workgroups.h"
 #include "vk/commands.h"
 
 namespace trisect {
 
 class VulkanTracer {
  public:
-  // Uploads the scene and compiles the kernel for it. width, height: pixels of the frames.
-  // buffer_limit: the most bytes a buffer may have, if less than the device's own limit. Throws
-  // gpu::Error if the device cannot hold the scene.
+  // Uploads the scene and compiles the kernels for it. width, height: the most pixels of a frame's
+  // sides. buffer_limit: the most bytes a buffer may have, if less than the device's own limit.
+  // code: kernels compiled anew, or null for those that were built in. Throws gpu::Error if the
+  // device cannot hold the scene.
   VulkanTracer(const gpu::Device& device, const BakedScene& scene, uint32_t width, uint32_t height,
-               const KernelChoice& choice, std::size_t buffer_limit = kNoLimit);
+               const KernelChoice& choice, std::size_t buffer_limit = kNoLimit,
+               const KernelCode* code = nullptr);
 
-  // Renders into `frame`, in submits of bounded time. params.width and .height must be the
+  // Renders into `frame`, in submits of bounded time. params.width and .height must be at most the
   // tracer's. between_submits, if set, is called between any two; what it throws stops the frame.
   FrameTime render(const TraceParams& params, Frame& frame,
                    const std::function<void()>& between_submits = {});
 
+  // The same, but the frame stays on the device, in colors() and aovs(); it must be one that
+  // holds_at_once() says. Returns milliseconds on the device.
+  double trace(const TraceParams& params, const std::function<void()>& between_submits = {});
+
+  // What trace() left on the device.
+  void fetch(const TraceParams& params, Frame& frame);
+
+  // Whether the output buffers hold such a frame as a whole.
+  [[nodiscard]] bool holds_at_once(uint32_t width, uint32_t height) const {
+    return width <= width_ && height <= band_rows_;
+  }
+
+  // vec4s, sRGB-encoded, and PixelAovs if the choice has them, in raster order.
+  [[nodiscard]] const gpu::Buffer& colors() const { return image_.colors; }
+  [[nodiscard]] const gpu::Buffer& aovs() const { return image_.aovs; }
+
+  // For frames of another size. Kernels and scene stay.
+  void resize(uint32_t width, uint32_t height);
+
   [[nodiscard]] double upload_ms() const { return upload_ms_; }
 
+  // Of device memory, for all that is not an image or a queue of rays.
+  [[nodiscard]] std::size_t scene_bytes() const {
+    return scene_.bytes() + (tiles_ ? tiles_->bytes() : 0);
+  }
+
  private:
-  double render_band(uint32_t first_row, uint32_t rows,
+  // What depends on the frame's size.
+  struct ImageBuffers {
+    ImageBuffers(const gpu::Device& device, uint32_t width, uint32_t band_rows, bool with_aovs);
+
+    gpu::Buffer colors;
+    gpu::Buffer aovs;
+    RayQueue queue;
+  };
+
+  [[nodiscard]] gpu::BoundBuffers bind() const;
+  void download_band(uint32_t first_row, uint32_t rows, Frame& frame);
+  double look(const TraceParams& params);
+  double render_band(const TraceParams& params, uint32_t first_row, uint32_t rows,
                      const std::function<void()>& between_submits);
+  double run(std::span<const gpu::Kernel> kernels, GroupRange groups, uint32_t first_row,
+             uint32_t rows, const std::function<void()>& between_submits);
 
   const gpu::Device& device_;
   uint32_t width_;
   uint32_t height_;
   bool aovs_;
+  bool writes_aovs_;
   std::size_t buffer_limit_;
   uint32_t band_rows_;
   std::optional<TileLists> tiles_;
   SceneBuffers scene_;
-  std::vector<gpu::Kernel> kernels_;  // for new rays, then for those that pause
+  std::vector<gpu::Kernel> kernels_;         // for new rays, then for those that pause
+  std::vector<gpu::Kernel> shadow_kernels_;  // the same for shadows
   gpu::Commands commands_;
   gpu::Staging staging_;
   gpu::Buffer params_;
-  gpu::Buffer colors_;
-  gpu::Buffer aovs_buffer_;
-  RayQueue queue_;
+  ImageBuffers image_;
   gpu::Buffer unused_;
   gpu::BoundBuffers bound_;
   double upload_ms_ = 0.0;

@@ -3,17 +3,15 @@
 # image size, 800x600 without one (an hour and a half, most of it the oracle on the sphere surface).
 set -euo pipefail
 cd "$(dirname "$0")/.."
-scripts/setup.sh build docs
-cmake --preset release >/dev/null
-cmake --build --preset release --target trisect
+. scripts/measure.sh
+ready build docs
 size=${1:-800x600}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 all=(sphere-20 sphere-80 sphere-320 torus relief capsule cube saddle teapot teapot-1000)
-paths() { printf 'assets/%s.obj ' "$@"; }
 
 # The table of `trisect accuracy` without its column of milliseconds, which the oracle's threads disturb.
-accuracy() { measure accuracy "$@" | awk -F'|' -v OFS='|' 'NF > 10 { for (i = 19; i < NF; ++i) $i = $(i + 1); --NF } 1'; }
+accuracy() { checked accuracy "$@" | awk -F'|' -v OFS='|' 'NF > 10 { for (i = 19; i < NF; ++i) $i = $(i + 1); --NF } 1'; }
 
 # Median milliseconds of a model's frame with these options.
 milliseconds() {
@@ -23,7 +21,7 @@ milliseconds() {
 }
 
 # A broken promise is a line of the table; the exit code 1 that says so is for others.
-measure() { build/release/trisect "$@" || [ $? = 1 ]; }
+checked() { build/release/trisect "$@" || [ $? = 1 ]; }
 {
   cat <<END
 # Accuracy
@@ -71,7 +69,7 @@ END
 
 \`\`\`
 END
-  measure hardcases
+  checked hardcases
   echo '```'
 } > "$work/accuracy.md"
 mv "$work/accuracy.md" docs/accuracy.md

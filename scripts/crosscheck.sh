@@ -3,9 +3,8 @@
 # in it. The argument is the image size, 320x240 without one (some ten minutes).
 set -euo pipefail
 cd "$(dirname "$0")/.."
-scripts/setup.sh build docs
-cmake --preset release >/dev/null
-cmake --build --preset release --target trisect
+. scripts/measure.sh
+ready build docs
 size=${1:-320x240}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

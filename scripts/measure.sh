@@ -1,13 +1,29 @@
-# For scripts that measure; sourced. They set `work`, a folder of their own.
+# For scripts that measure; sourced. Those that use measure() set `work`, a folder of their own.
 
-# measure DRIVER MODEL RUNS OPTIONS...: renders at 800x600, leaving the figures for figure(). DRIVER is `stock` or
-# `newer`, the one that unpack-mesa.sh unpacks. MODEL is the name of an asset or the path of a file.
+# ready GROUP...: installs these groups of packages and builds the program.
+ready() {
+  scripts/setup.sh "$@"
+  cmake --preset release >/dev/null
+  cmake --build --preset release --target trisect
+}
+
+# on DRIVER COMMAND...: runs a command with a Vulkan driver: `stock`, or `newer`, the one that unpack-mesa.sh unpacks.
+on() {
+  local environment=()
+  if [ "$1" = newer ]; then read -ra environment < <(scripts/unpack-mesa.sh); fi
+  env "${environment[@]}" "${@:2}"
+}
+
+# paths MODEL...: the files of assets.
+paths() { printf 'assets/%s.obj ' "$@"; }
+
+# measure DRIVER MODEL RUNS OPTIONS...: renders at 800x600, leaving the figures for figure(). MODEL is the name of an
+# asset or the path of a file.
 measure() {
-  local driver=$1 model=$2 runs=$3 environment=()
+  local driver=$1 model=$2 runs=$3
   shift 3
   case $model in */*) ;; *) model=assets/$model.obj ;; esac
-  if [ "$driver" = newer ]; then read -ra environment < <(scripts/unpack-mesa.sh); fi
-  env "${environment[@]}" build/release/trisect render "$model" --runs "$runs" -o "$work/a.png" \
+  on "$driver" build/release/trisect render "$model" --runs "$runs" -o "$work/a.png" \
     --stats "$work/a.json" "$@" >/dev/null
 }
 

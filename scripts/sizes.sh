@@ -1,28 +1,30 @@
 #!/bin/bash
-# Measures the same teapot from a thousand to four million patches, and writes docs/sizes.md. Some six minutes.
+# Measures the same sphere from 20 to five million patches, and writes docs/sizes.md and its plot. Some ten minutes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-scripts/setup.sh build docs
+scripts/setup.sh build test docs
 cmake --preset release >/dev/null
 cmake --build --preset release --target trisect make-assets
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-models=(teapot-1000 teapot-16k teapot-65k teapot-260k teapot-1m teapot-4m)
+sizes=(20 80 320 1280 5120 20480 81920 327680 1310720 5242880)
 
 . scripts/measure.sh
-ms() { figure '.gpu_ms.median | round'; }
+ms() { figure '.gpu_ms.median | if . < 100 then (. * 10 | round / 10) else round end'; }
 seconds() { figure "$1 | . / 10 | round / 100"; }
 
-# One line: a model on both drivers.
+# One line: a sphere on both drivers. The figures of the plot go into $work/data.
 row() {
-  local newer
-  build/release/make-assets "$work" "$1"
-  measure newer "$work/$1.obj" 3 --accel bvh
+  local model=$work/sphere-$1.obj newer runs=3
+  if [ "$1" -gt 1000000 ]; then runs=1; fi
+  if [ -f "assets/sphere-$1.obj" ]; then model=assets/sphere-$1.obj; else build/release/make-assets "$work" "sphere-$1"; fi
+  measure newer "$model" $runs
   newer=$(ms)
-  measure stock "$work/$1.obj" 3 --accel bvh
-  echo "| $1 | $(figure .patches) | $(seconds .load_ms) | $(seconds .bake_ms) | $(seconds .bvh_ms) | $(seconds .upload_ms)" \
-    "| $(figure '.scene_bytes / .patches | round') | $(ms) | $newer |"
-  rm "$work/$1.obj"
+  measure stock "$model" $runs
+  echo "$1 $newer $(ms)" >>"$work/data"
+  echo "| $1 | $(figure .accel) | $(seconds .load_ms) | $(seconds .bake_ms) | $(seconds '(.bvh_ms // 0)') | $(seconds .upload_ms)" \
+    "| $(figure '.scene_bytes / .patches | round') | $newer | $(ms) |"
+  rm -f "$work/sphere-$1.obj"
 }
 
 name_drivers
@@ -30,16 +32,30 @@ name_drivers
   cat <<END
 # Size
 
-Newell's teapot, divided ever more finely, in the same view: 800x600, phong, robust solver, \`--accel bvh\`. Written by
-\`scripts/sizes.sh\` on $(nproc) cores; medians of 3 frames after a warm-up, milliseconds on the device.
-Device: $(figure .device); A is ${name[stock]}, B ${name[newer]}.
-The machine is shared: 20% either way means nothing.
+The sphere, divided ever more finely, in the same view: 800x600, phong, robust solver, \`--accel auto\`. Written by
+\`scripts/sizes.sh\` on $(nproc) cores; medians of 3 frames after a warm-up (of more than a million patches: 1), milliseconds
+on the device. Device: $(figure .device); A is ${name[newer]}, B ${name[stock]}. The machine is shared: 20% either way
+means nothing.
+
+![Milliseconds over patches](sizes.svg)
 
 Read is the OBJ file, bake the triangles and their cages, bytes what a patch takes on the device: triangle, cages, tree.
 
-| model | patches | read, s | bake, s | tree, s | upload, s | bytes | A, ms | B, ms |
+| patches | accel | read, s | bake, s | tree, s | upload, s | bytes | A, ms | B, ms |
 |---|---|---|---|---|---|---|---|---|
 END
-  for model in "${models[@]}"; do row "$model"; done
+  for size in "${sizes[@]}"; do row "$size"; done
 } >"$work/sizes.md"
-mv "$work/sizes.md" docs/sizes.md
+gnuplot <<END
+set terminal svg size 800,420 dynamic background rgb "white"
+set output "$work/sizes.svg"
+set logscale xy
+set grid
+set xlabel "patches"
+set ylabel "milliseconds a frame"
+set format x "10^{%L}"
+set key left top
+plot "$work/data" using 1:2 with linespoints pt 7 title "${name[newer]}", \
+     "$work/data" using 1:3 with linespoints pt 5 title "${name[stock]}"
+END
+mv "$work/sizes.md" "$work/sizes.svg" docs/

@@ -6,6 +6,7 @@ layout(constant_id = CONSTANT_GROUPS) const bool GROUPS = false;
 layout(constant_id = CONSTANT_SOLVER) const uint SOLVER = SOLVER_ROBUST;
 const bool AOVS = false;
 const bool COUNTS = true;
+const bool SHADOWS = false;
 
 layout(std140, binding = BINDING_PARAMS) uniform ParamsBlock { TraceParams params; };
 #include "scene_buffers.glsl"

@@ -7,6 +7,7 @@ const bool GROUPS = VALUE_GROUPS != 0u;
 const uint SOLVER = VALUE_SOLVER;
 const bool AOVS = VALUE_AOVS != 0u;
 const bool COUNTS = VALUE_COUNTS != 0u;
+const bool SHADOWS = VALUE_SHADOWS != 0u;
 layout(std430, binding = BINDING_PUSH) readonly restrict buffer PushBlock { TilePush push; };
 #else
 layout(constant_id = CONSTANT_SURFACE) const uint SURFACE = SURFACE_PHONG;
@@ -15,6 +16,7 @@ layout(constant_id = CONSTANT_GROUPS) const bool GROUPS = false;
 layout(constant_id = CONSTANT_SOLVER) const uint SOLVER = SOLVER_ROBUST;
 layout(constant_id = CONSTANT_AOVS) const bool AOVS = false;
 layout(constant_id = CONSTANT_COUNTS) const bool COUNTS = false;
+layout(constant_id = CONSTANT_SHADOWS) const bool SHADOWS = false;
 layout(push_constant) uniform PushBlock { TilePush push; };
 #endif
 

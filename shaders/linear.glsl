@@ -11,6 +11,9 @@ real length3(vec3 a) { return sqrt(dot3(a, a)); }
 
 vec3 normalize3(vec3 a) { return a / length3(a); }
 
+// The normal on the side that `view` looks at.
+vec3 facing(vec3 normal, vec3 view) { return dot3(normal, view) > real(0.0) ? -normal : normal; }
+
 // The point with barycentric weights w among a, b, c.
 vec3 weigh(vec3 w, vec3 a, vec3 b, vec3 c) { return a * w.x + b * w.y + c * w.z; }
 

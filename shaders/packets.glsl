@@ -28,12 +28,13 @@ vec3 subgroup_min(vec3 a) { return vec3(subgroupMin(a.x), subgroupMin(a.y), subg
 
 vec3 subgroup_max(vec3 a) { return vec3(subgroupMax(a.x), subgroupMax(a.y), subgroupMax(a.z)); }
 
-Packet packet_of(PixelRay ray) {
+// Of the rays that are awake.
+Packet packet_of(PixelRay ray, bool awake) {
   vec3 least = subgroup_min(ray.view);
   vec3 most = subgroup_max(ray.view);
   vec3 slack = vec3(subgroupMax(slack_of(ray)));
-  vec3 lo = subgroup_min(ray.anchor) - slack;
-  vec3 hi = subgroup_max(ray.anchor) + slack;
+  vec3 lo = subgroup_min(awake ? ray.anchor : vec3(1e30)) - slack;
+  vec3 hi = subgroup_max(awake ? ray.anchor : vec3(-1e30)) + slack;
   const vec3 steep = vec3(1e-6);
   bvec3 back = lessThan(most, -steep);
   Packet packet;

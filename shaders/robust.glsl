@@ -71,13 +71,9 @@ FramedPatch sheared_patch(RayFrame frame, FramedPatch at) {
   return framed;
 }
 
-// What a coordinate across the ray may be off by: some roundings of the anchor and of the patch's farthest vertex. A
-// ray that passes a patch's border by less than this meets it, so that none falls between two patches.
-real grain(RayFrame frame, Triangle tri) {
-  real farthest = max(length3(vec3(tri.Position[0])),
-                      max(length3(vec3(tri.Position[1])), length3(vec3(tri.Position[2]))));
-  return real(2.4e-7) * frame.stretch * max(length3(frame.anchor), farthest);
-}
+// What a coordinate across the ray may be off by. A ray that passes a patch's border by less than this meets it, so that
+// none falls between two patches.
+real grain(RayFrame frame, Triangle tri) { return ROUNDINGS * frame.stretch * farthest(frame.anchor, tri); }
 
 // The quadratic of a cubic patch is sigma itself.
 Displacement displacement_in(Shape shape, Triangle tri, Cage cage, vec3 w) {

@@ -28,8 +28,8 @@ void main() {
   precise Walk walk = resumed_walk(place, int(push.queue.steps));
   uint index = paused[place].ray;
   uvec2 pixel = uvec2(index % params.width, index / params.width);
-  precise PixelRay ray = pixel_ray(pixel);
-  Packet packet = packet_of(ray);
+  precise PixelRay ray = ray_of(pixel);
+  Packet packet = packet_of(ray, true);
   Descent descent = descent_begun(packet);
   bool here;
   uint part;
@@ -43,6 +43,7 @@ void main() {
       if (here) {
         if (COUNTS) ++walk.counts.candidates;
         meet_part(scene_shape(), tri, cage, part, ray.frame, ray.view, ray.nearest, walk);
+        end_in_shadow(walk);
         walk.steps -= VISIT_STEPS;
       }
     }

@@ -23,8 +23,11 @@ real ShadeGrid(vec3 pos, vec3 normal) {
   return clamp((nearest - real(0.04)) / real(0.02), real(0.0), real(1.0));
 }
 
+// What the light does not reach.
+const real AMBIENT = real(0.25);
+
 vec3 shade(vec3 normal, vec3 pos, vec3 light, vec4 grid) {
   real f = Lambert(normal, light);
   real g = ShadeGrid((pos - vec3(grid)) * grid.w, normal);
-  return vec3((real(0.5) + g * real(0.25)) * f + real(0.25));
+  return vec3((real(0.5) + g * real(0.25)) * f + AMBIENT);
 }

@@ -142,6 +142,19 @@ struct TilePush {
   uint rows;
 };
 
+// How a window shows a frame of another size: each of its pixels is the mean of the frame's under
+// it, or lies between the four next to it.
+struct ScreenPush {
+  uint width;  // of the window, in pixels
+  uint height;
+  uint frame_width;
+  uint frame_height;
+  uint shown;  // SHOWN_...
+  float low;   // what the dark end of the scale stands for: depth; log10 of an error; evaluations
+  float high;
+  uint padding;
+};
+
 // Per-pixel outputs beside the colour.
 struct PixelAovs {
   vec4
@@ -212,6 +225,20 @@ const uint SHELL_NORMAL = 1u;
 const uint SOLVER_BISECT = 0u;
 const uint SOLVER_ROBUST = 1u;
 
+// What of a frame is shown.
+const uint SHOWN_COLOR = 0u;
+const uint SHOWN_NORMAL = 1u;     // of shading
+const uint SHOWN_GEOMETRIC = 2u;  // normal
+const uint SHOWN_DEPTH = 3u;
+const uint SHOWN_PATCH = 4u;
+const uint SHOWN_UV = 5u;
+const uint SHOWN_EVALUATIONS = 6u;
+// The colours' x is an error, or one of these.
+const uint SHOWN_ERROR = 7u;
+const float ERROR_NOTHING = -1.0;  // nothing is there
+const float ERROR_UNDECIDED = -2.0;
+const float ERROR_WRONG = -3.0;  // hit, and should not be, or the other way round
+
 // Workgroups are TILE_SIZE x TILE_SIZE pixels.
 #define TILE_SIZE 8
 // A tile's list holds so many parts. The rays of one that more parts touch go through all of them.
@@ -240,6 +267,7 @@ const uint SOLVER_ROBUST = 1u;
 #define BINDING_TILES_SEEN 14
 #define BINDING_BVH 15
 #define BINDING_ADDRESSES 16
+#define BINDING_FRAME 17  // a texture
 
 // Specialisation constants.
 #define CONSTANT_SURFACE 0
@@ -248,3 +276,5 @@ const uint SOLVER_ROBUST = 1u;
 #define CONSTANT_SOLVER 3
 #define CONSTANT_COUNTS 4
 #define CONSTANT_GROUPS 5
+#define CONSTANT_SHADOWS 6
+#define CONSTANT_BALLS 7

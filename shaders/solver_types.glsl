@@ -82,6 +82,10 @@ struct Contact {
   vec3 v;
 };
 
+// Places along a ray that has met nothing yet, and along one that need not meet anything any more.
+const real NOTHING_YET = real(1e30);
+const real NOTHING_MORE = real(-1e30);
+
 // The nearest root so far.
 struct Hit {
   real z;

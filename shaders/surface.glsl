@@ -18,6 +18,17 @@
 //
 // Derivatives are along u = w_1 and v = w_2 with w_0 = 1 - u - v.
 
+// Of a position's size: what a point of a patch may be off by in single precision, for its own roundings and those of the
+// patch's farthest vertex.
+const real ROUNDINGS = real(2.4e-7);
+
+// The distance of the farthest of a point and the patch's vertices from the scene's origin.
+real farthest(vec3 point, Triangle tri) {
+  real vertex = max(length3(vec3(tri.Position[0])),
+                    max(length3(vec3(tri.Position[1])), length3(vec3(tri.Position[2]))));
+  return max(length3(point), vertex);
+}
+
 vec3 base_point(Triangle tri, vec3 w) {
   return weigh(w, vec3(tri.Position[0]), vec3(tri.Position[1]), vec3(tri.Position[2]));
 }
@@ -223,4 +234,12 @@ vec3 geometric_normal(Shape shape, Triangle tri, vec3 w) {
   vec3 Su = vec3(tri.Position[1]) - vec3(tri.Position[0]) + D * sigma.u + Du * sigma.s;
   vec3 Sv = vec3(tri.Position[2]) - vec3(tri.Position[0]) + D * sigma.v + Dv * sigma.s;
   return normalize3(cross3(Su, Sv));
+}
+
+// Where a ray leaves the surface that starts at the point with weights w, toward a light on the side of the geometric
+// normal n: above it by more than roundings put the point below, so that the ray does not meet the surface it leaves. The
+// surface bends toward the ray where it is concave; there it is met, farther off.
+vec3 departure(Shape shape, Triangle tri, vec3 w, vec3 n) {
+  EXACT vec3 point = surface_point(shape, tri, w);
+  return point + n * (real(4.0) * ROUNDINGS * farthest(point, tri));
 }

@@ -1,6 +1,6 @@
 // One ray's way through the patches, and its outputs. Which patches those are say every_part.glsl, tile_parts.glsl or
-// bvh_parts.glsl: one of them is included ahead. Reads params, triangles and cages; SURFACE, SHELL, SOLVER, AOVS, COUNTS
-// and GROUPS are constants.
+// bvh_parts.glsl: one of them is included ahead. Reads params, triangles and cages; SURFACE, SHELL, SOLVER, AOVS, COUNTS,
+// GROUPS and SHADOWS are constants.
 
 Shape scene_shape() {
   Shape shape;
@@ -16,7 +16,7 @@ const uint BISECT_STEPS = 65000u;
 // A walk through nothing yet.
 Walk walk_begun(int steps) {
   Walk walk;
-  walk.hit.z = real(1e30);
+  walk.hit.z = NOTHING_YET;
   walk.hit.weights = vec3(0.0);
   walk.hit.triangle = NO_TRIANGLE;
   walk.hit.part = NO_TRIANGLE;
@@ -28,7 +28,15 @@ Walk walk_begun(int steps) {
   return walk;
 }
 
+// Whatever is in the way makes a shadow.
+void end_in_shadow(INOUT(Walk) walk) {
+  if (!SHADOWS || walk.hit.triangle == NO_TRIANGLE) return;
+  walk.hit.z = NOTHING_MORE;
+  walk.path = WHOLE;
+}
+
 bool is_through(PixelRay ray, Walk walk) {
+  if (SHADOWS && walk.hit.z == NOTHING_MORE) return true;
   return SOLVER == SOLVER_ROBUST ? no_parts_left(ray, walk.item) : walk.item >= params.triangle_count;
 }
 
@@ -64,7 +72,7 @@ void walk_bisect(PixelRay ray, uint pass, INOUT(Walk) walk) {
 
 // The parts that the ray comes near, until none is left. hit.z is in the ray's frame.
 void walk_robust(PixelRay ray, INOUT(Walk) walk) {
-  while (!no_parts_left(ray, walk.item) && walk.steps > 0) {
+  while (!is_through(ray, walk) && walk.steps > 0) {
     // Parts that the ray passes by are passed in a loop of their own: a loop that holds the search below would go
     // through all of it, masked, for each of them.
     uint part = find_part(ray, walk);
@@ -72,6 +80,7 @@ void walk_robust(PixelRay ray, INOUT(Walk) walk) {
       if (COUNTS && walk.path == WHOLE) ++walk.counts.candidates;
       meet_part(scene_shape(), triangles[cages[part].triangle], cages[part], part, ray.frame, ray.view, ray.nearest,
                 walk);
+      end_in_shadow(walk);
       if (walk.path == WHOLE) walk.item = item_after(walk.item);
     }
     walk.steps -= VISIT_STEPS;
@@ -124,7 +133,7 @@ void shade_pixel(PixelRay ray, Hit hit, OUT(vec4) color, OUT(PixelAovs) aovs) {
   vec3 normal = vertex_normal(triangles[hit.triangle], hit.weights);
   vec3 point = ray.anchor + ray.view * (hit.z - (ray.axis + ray.beyond_axis));
   // The thesis sees front faces only; the robust solver sees both, and lights the one it sees.
-  vec3 lit = SOLVER == SOLVER_ROBUST && dot3(normal, ray.view) > real(0.0) ? -normal : normal;
+  vec3 lit = SOLVER == SOLVER_ROBUST ? facing(normal, ray.view) : normal;
   color = vec4(shade(lit, point, vec3(params.light), params.grid), 1.0);
   if (AOVS) {
     aovs.normal_z = vec4(normalize3(normal), hit.z);

@@ -9,22 +9,19 @@
 
 in vec3 to_near;
 in vec2 across;
-layout(location = 0) out vec4 out_color;
-layout(location = 1) out vec4 out_normal_z;
-layout(location = 2) out vec4 out_geometric_u;
-layout(location = 3) out uvec4 out_rest;  // v's bits, triangle, evaluations, candidates
 
 #include "rays.glsl"
 #include "every_part.glsl"
 #include "trace.glsl"
 #include "queue.glsl"
+#include "fragment_outputs.glsl"
 
 // The path of a pixel that does not wait.
 const uint NOWHERE = 0u;
 
 void main() {
-  // OpenGL counts rows from below; first_group is the band's lowest row.
-  uvec2 pixel = uvec2(uint(gl_FragCoord.x), params.height - 1u - push.first_group - uint(gl_FragCoord.y));
+  // first_group is the band's lowest row.
+  uvec2 pixel = fragment_pixel(push.first_group);
   uint index = (pixel.y - push.first_row) * params.width + pixel.x;
   precise Walk walk = walk_begun(int(push.queue.steps));
   if (push.queue.pass > 0u) {
@@ -42,10 +39,5 @@ void main() {
   precise vec4 color;
   precise PixelAovs aovs;
   finish_pixel(ray, walk, color, aovs);
-  out_color = color;
-  if (AOVS) {
-    out_normal_z = aovs.normal_z;
-    out_geometric_u = aovs.geometric_u;
-    out_rest = uvec4(floatBitsToUint(aovs.v), aovs.triangle, aovs.evaluations, aovs.candidates);
-  }
+  write_fragment(color, aovs);
 }

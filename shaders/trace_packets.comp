@@ -39,9 +39,9 @@ void main() {
   uint tile = push.first_group + gl_WorkGroupID.x;
   uint columns = tiles_across(params.width);
   uvec2 pixel = uvec2(tile % columns, tile / columns) * TILE_SIZE + pixel_in_tile(gl_LocalInvocationIndex);
-  precise PixelRay ray = pixel_ray(pixel);
-  precise Walk walk = walk_begun(0);
-  Packet packet = packet_of(ray);
+  precise PixelRay ray = ray_of(pixel);
+  precise Walk walk = walk_of(pixel, 0);
+  Packet packet = packet_of(ray, walk.hit.z != NOTHING_MORE);
   bool undecided = false;
   Descent descent = descent_begun(packet);
   bool here;
@@ -49,8 +49,9 @@ void main() {
   do {
     part = next_part(packet, ray, true, walk.hit.z, descent, here);
     if (part != NO_TRIANGLE) meet(part, ray, here, walk, undecided);
+    end_in_shadow(walk);
   } while (part != NO_TRIANGLE);
-  undecided = undecided || descent.steps <= 0;
+  undecided = (undecided || descent.steps <= 0) && walk.hit.z != NOTHING_MORE;
   if (pixel.x >= params.width || pixel.y >= params.height) return;
   if (undecided) {
     enqueue(pixel.y * params.width + pixel.x, walk);

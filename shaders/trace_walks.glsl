@@ -18,6 +18,7 @@ void main() {
   if (push.queue.pass == 0u) {
     pixel = new_pixel();
     if (pixel.x >= params.width || pixel.y >= params.height) return;
+    walk = walk_of(pixel, walk.steps);
   } else {
     uint invocation = gl_WorkGroupID.x * TILE_SIZE * TILE_SIZE + gl_LocalInvocationIndex;
     if (invocation >= push.queue.resumed) return;
@@ -26,7 +27,7 @@ void main() {
     uint index = paused[place].ray;
     pixel = uvec2(index % params.width, index / params.width);
   }
-  precise PixelRay ray = pixel_ray(pixel);
+  precise PixelRay ray = ray_of(pixel);
   ray.tile = tile_of(pixel);
   go_on(ray, push.queue.pass, walk);
   if (!is_through(ray, walk)) {

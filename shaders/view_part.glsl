@@ -24,6 +24,12 @@ void enclose(vec3 seen, INOUT(ViewPart) view) {
                   max(view.box.w, seen.y + seen.z));
 }
 
+// Lets it be seen everywhere.
+void open_up(INOUT(ViewPart) view) {
+  view.box = vec4(real(-1e30), real(-1e30), real(1e30), real(1e30));
+  view.lines_at = vec4(real(1e30));
+}
+
 // 0 for no length: a line without direction leaves nothing out.
 real over_length(real x, vec2 a) {
   real size = length2(a);
@@ -88,10 +94,7 @@ ViewPart seen_part(uint index) {
   enclose(s8, view);
   enclose(s9, view);
   // Written so that a NaN is seen everywhere.
-  if (!(least_width >= real(0.0) && view.box.z - view.box.x < real(1e20))) {
-    view.box = vec4(real(-1e30), real(-1e30), real(1e30), real(1e30));
-    view.lines_at = vec4(real(1e30));
-  }
+  if (!(least_width >= real(0.0) && view.box.z - view.box.x < real(1e20))) open_up(view);
   view.P0 = vec4(at.P0, cage.edge.x);
   view.P1 = vec4(at.P1, cage.edge.y);
   view.P2 = vec4(at.P2, cage.edge.z);
@@ -101,4 +104,14 @@ ViewPart seen_part(uint index) {
   view.cone = cage.cone;
   view.sizes = vec4(cage.node.w, axial, 0.0, 0.0);
   return view;
+}
+
+// Draws the box around what is seen of a ball that holds the part, and no line.
+void bound_by_ball(vec4 ball, INOUT(ViewPart) view) {
+  RayFrame frame = camera_frame(vec2(0.0));
+  vec3 center = turned(frame, vec3(ball) - frame.anchor);
+  vec3 seen = seen_at(center, ball.w);
+  open_up(view);
+  view.lines_x.w = center.z - ball.w;
+  if (seen.z >= real(0.0)) view.box = vec4(seen.x - seen.z, seen.y - seen.z, seen.x + seen.z, seen.y + seen.z);
 }

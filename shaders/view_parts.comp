@@ -8,6 +8,7 @@
 layout(local_size_x = PARTS_SIZE) in;
 
 #include "frame_buffers.glsl"
+layout(constant_id = CONSTANT_BALLS) const bool BALLS = false;
 layout(std430, binding = BINDING_VIEW_PARTS) writeonly restrict buffer ViewPartsBlock { ViewPart view_parts[]; };
 
 #include "rays.glsl"
@@ -19,5 +20,6 @@ void main() {
   uint part = gl_GlobalInvocationID.x;
   if (part >= params.cage_count) return;
   precise ViewPart view = seen_part(part);
+  if (BALLS) bound_by_ball(cages[part].ball, view);
   view_parts[part] = view;
 }

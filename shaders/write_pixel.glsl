@@ -1,14 +1,40 @@
-// The outputs of a compute kernel.
+// A pixel's ray, and its outputs. Rays for shadows start from what the frame's have met: the outputs before them.
+#include "shadow.glsl"
 
 layout(std430, binding = BINDING_COLOR) writeonly restrict buffer ColorBlock { vec4 colors[]; };
-layout(std430, binding = BINDING_AOVS) writeonly restrict buffer AovsBlock { PixelAovs pixels[]; };
+layout(std430, binding = BINDING_AOVS) restrict buffer AovsBlock { PixelAovs pixels[]; };
 
-// Those of a pixel whose walk is through.
+// Among the outputs, which begin with the band's first row. Beside the image: that of its last pixel.
+uint output_index(uvec2 pixel) {
+  uint row = min(pixel.y, params.height - 1u) - push.first_row;
+  return row * params.width + min(pixel.x, params.width - 1u);
+}
+
+PixelRay ray_of(uvec2 pixel) {
+  PixelRay ray = pixel_ray(pixel);
+  if (!SHADOWS) return ray;
+  return shadow_ray(pixels[output_index(pixel)], ray.view);
+}
+
+Walk walk_of(uvec2 pixel, int steps) {
+  if (!SHADOWS) return walk_begun(steps);
+  return shadow_walk_begun(pixels[output_index(pixel)], pixel_ray(pixel).view, steps);
+}
+
+// The outputs of a pixel whose walk is through.
 void write_pixel(uvec2 pixel, PixelRay ray, Walk walk) {
+  uint index = output_index(pixel);
+  if (SHADOWS) {
+    if (walk.hit.triangle != NO_TRIANGLE) colors[index] = shadow_color();
+    if (COUNTS) {
+      pixels[index].evaluations += walk.counts.evaluations;
+      pixels[index].candidates += walk.counts.candidates;
+    }
+    return;
+  }
   precise vec4 color;
   precise PixelAovs aovs;
   finish_pixel(ray, walk, color, aovs);
-  uint index = (pixel.y - push.first_row) * params.width + pixel.x;
   colors[index] = color;
   if (AOVS) pixels[index] = aovs;
 }

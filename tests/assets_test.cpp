@@ -2,28 +2,22 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 
 #include "app/mesh_builder.h"
+#include "tests/support/file_content.h"
 #include "tests/support/scenes.h"
 
 namespace trisect {
 namespace {
 
-std::string content(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 const std::filesystem::path kGenerated(TRISECT_GENERATED_ASSETS);
 
 TEST(Assets, AreWhatTheGeneratorWrites) {
   for (const std::string& name : test::asset_names()) {
-    const std::string text = content(test::asset_path(name));
+    const std::string text = test::content_of(test::asset_path(name));
     EXPECT_FALSE(text.empty()) << name;
-    EXPECT_EQ(text, content(kGenerated / (name + ".obj"))) << name;
+    EXPECT_EQ(text, test::content_of(kGenerated / (name + ".obj"))) << name;
     EXPECT_LT(text.size(), 200U * 1024U) << name;
   }
 }

@@ -95,6 +95,8 @@ TEST(ViewPart, HoldsWhatIsSeenOfThePart) {
       for (uint32_t part = 0; part < scene.cages.size(); part += 7) {
         const Cage& cage = scene.cages[part];
         const ViewPart seen = kernel.seen_part(part);
+        ViewPart balled = seen;
+        kernel.bound_by_ball(cage.ball, balled);
         for (const dvec3& l : test::weight_grid(4)) {
           const dvec3 S =
               in_double::surface_point(shape_of(choice.choice),
@@ -111,6 +113,8 @@ TEST(ViewPart, HoldsWhatIsSeenOfThePart) {
           ASSERT_TRUE(kernel.may_see(seen, glm::vec2(p), glm::vec2(kernel.PIXEL_SLACK)))
               << choice.model << " part " << part << " view " << view << " at " << p.x << ", "
               << p.y;
+          ASSERT_TRUE(kernel.may_see(balled, glm::vec2(p), glm::vec2(kernel.PIXEL_SLACK)));
+          EXPECT_GE(z, balled.lines_x.w);
           tightest = std::min(tightest, double{seen.box.z} - p.x);
         }
       }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <map>
+#include <set>
 #include <span>
 #include <spirv_cross/spirv_cross.hpp>
 #include <string>
@@ -226,7 +227,8 @@ TEST(Layout, InterfaceIsTheKernels) {
                                                         {CONSTANT_SHELL, "SHELL"},
                                                         {CONSTANT_SOLVER, "SOLVER"},
                                                         {CONSTANT_COUNTS, "COUNTS"},
-                                                        {CONSTANT_GROUPS, "GROUPS"}}));
+                                                        {CONSTANT_GROUPS, "GROUPS"},
+                                                        {CONSTANT_SHADOWS, "SHADOWS"}}));
 }
 
 }  // namespace

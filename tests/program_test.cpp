@@ -6,7 +6,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "app/image_file.h"
 #include "tests/support/exr_reader.h"
+#include "tests/support/file_content.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scenes.h"
 #include "tests/support/temporary_folder.h"
@@ -136,7 +138,7 @@ TEST_F(Program, PicksAnAccelerationAndSaysWhich) {
     std::ifstream file(folder_ / "s.json");
     return nlohmann::json::parse(file)["accel"].get<std::string>();
   };
-  // The image has fewer tiles than the model has patches, then more.
+  // The model has more than three parts for each tile of the image, then less.
   EXPECT_EQ(accel({}), "bvh");
   EXPECT_EQ(accel({"--size", "240x160"}), "tiles");
   EXPECT_EQ(accel({"--accel", "auto", "--size", "240x160"}), "tiles");
@@ -156,6 +158,20 @@ TEST_F(Program, LightsFromADirection) {
   // The middle of the sphere that the camera faces.
   const std::size_t middle = 12U * 32U + 16U;
   EXPECT_GT(front.colors.at(middle).x, 2.0F * back.colors.at(middle).x);
+}
+
+TEST_F(Program, CastsShadows) {
+  expect_complaint(render({"--shadows", "--solver", "bisect"}), 2, "--solver robust");
+  expect_complaint(render({"--shadows", "--gl-path", "fragment"}), 2, "--gl-path compute");
+  // From behind: what the camera faces is all in shadow.
+  for (const char* backend : {"vulkan", "opengl", "cpu", "oracle"}) {
+    ASSERT_EQ(render({"--light", "0,-1,-1", "--shadows", "--backend", backend}, "a.exr").exit_code,
+              0);
+    const Frame image = test::read_exr(folder_ / "a.exr");
+    const vec4 middle = image.colors.at(12U * 32U + 16U);
+    EXPECT_NEAR(middle.x, linear_from_srgb(0.25F), 1e-6F) << backend;
+    EXPECT_EQ(middle.w, 1.0F) << backend;
+  }
 }
 
 TEST_F(Program, AveragesSeveralRaysAPixel) {

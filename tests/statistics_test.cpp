@@ -28,11 +28,12 @@ TEST(ToJson, HasEveryKeyOfTheContract) {
   const auto json = nlohmann::ordered_json::parse(to_json(options, statistics));
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_EQ(keys, (std::vector<std::string>{
-                      "program", "version", "device",  "driver",  "backend",     "model",
-                      "patches", "width",   "height",  "surface", "shell",       "solver",
-                      "accel",   "rank",    "alpha",   "hits",    "scene_bytes", "spp",
-                      "runs",    "gpu_ms",  "wall_ms", "load_ms", "bake_ms",     "upload_ms"}));
+  EXPECT_EQ(keys,
+            (std::vector<std::string>{
+                "program", "version", "device",      "driver",   "backend", "model", "patches",
+                "width",   "height",  "surface",     "shell",    "solver",  "accel", "rank",
+                "alpha",   "hits",    "scene_bytes", "shadows",  "spp",     "runs",  "gpu_ms",
+                "wall_ms", "load_ms", "bake_ms",     "upload_ms"}));
   EXPECT_EQ(json["program"], "trisect");
   EXPECT_EQ(json["version"], TRISECT_VERSION);
   EXPECT_EQ(json["patches"], 12);

@@ -12,15 +12,7 @@
 
 namespace trisect::gpu {
 
-Commands::Commands(const Device& device) : device_(&device) {
-  VkCommandPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
-  pool_info.queueFamilyIndex = device.family();
-  TRISECT_VK(vkCreateCommandPool(device.get(), &pool_info, nullptr, pool_.fill(device.get())));
-  VkCommandBufferAllocateInfo allocation{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-  allocation.commandPool = pool_.get();
-  allocation.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-  allocation.commandBufferCount = 1;
-  TRISECT_VK(vkAllocateCommandBuffers(device.get(), &allocation, &commands_));
+Commands::Commands(const Device& device) : device_(&device), commands_(device) {
   const VkFenceCreateInfo fence_info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
   TRISECT_VK(vkCreateFence(device.get(), &fence_info, nullptr, fence_.fill(device.get())));
   if (device.timestamp_bits() > 0) {
@@ -32,13 +24,10 @@ Commands::Commands(const Device& device) : device_(&device) {
 }
 
 void Commands::begin() {
-  TRISECT_VK(vkResetCommandPool(device_->get(), pool_.get(), 0));
-  VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-  info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-  TRISECT_VK(vkBeginCommandBuffer(commands_, &info));
+  commands_.begin();
   if (queries_.get() != VK_NULL_HANDLE) {
-    vkCmdResetQueryPool(commands_, queries_.get(), 0, 2);
-    vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, queries_.get(), 0);
+    vkCmdResetQueryPool(commands_.get(), queries_.get(), 0, 2);
+    vkCmdWriteTimestamp(commands_.get(), VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, queries_.get(), 0);
   }
 }
 
@@ -51,20 +40,20 @@ void Commands::dispatch(const Kernel& kernel, const BoundBuffers& buffers,
   // The kernel reads what copies and earlier dispatches wrote.
   order_after_writes();
   const VkDescriptorSet set = buffers.get();
-  vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
-  vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0, 1, &set, 0,
-                          nullptr);
+  vkCmdBindPipeline(commands_.get(), VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
+  vkCmdBindDescriptorSets(commands_.get(), VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0, 1,
+                          &set, 0, nullptr);
   if (!push.empty()) {
-    vkCmdPushConstants(commands_, kernel.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
+    vkCmdPushConstants(commands_.get(), kernel.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                        static_cast<uint32_t>(push.size()), push.data());
   }
-  vkCmdDispatch(commands_, groups_x, groups_y, 1);
+  vkCmdDispatch(commands_.get(), groups_x, groups_y, 1);
 }
 
 void Commands::clear(const Buffer& buffer) {
   // What it held may still be read.
   order_after_writes();
-  vkCmdFillBuffer(commands_, buffer.get(), 0, VK_WHOLE_SIZE, 0);
+  vkCmdFillBuffer(commands_.get(), buffer.get(), 0, VK_WHOLE_SIZE, 0);
 }
 
 void Commands::copy(const Buffer& from, std::size_t from_offset, const Buffer& to,
@@ -72,7 +61,7 @@ void Commands::copy(const Buffer& from, std::size_t from_offset, const Buffer& t
   // The source may have been written by a dispatch, the target read by one.
   order_after_writes();
   const VkBufferCopy region{from_offset, to_offset, size};
-  vkCmdCopyBuffer(commands_, from.get(), to.get(), 1, &region);
+  vkCmdCopyBuffer(commands_.get(), from.get(), to.get(), 1, &region);
 }
 
 void Commands::order_after_writes() {
@@ -83,7 +72,7 @@ void Commands::order_after_writes() {
                           VK_ACCESS_TRANSFER_WRITE_BIT;
   const VkPipelineStageFlags stages =
       VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
-  vkCmdPipelineBarrier(commands_, stages, stages, 0, 1, &barrier, 0, nullptr, 0, nullptr);
+  vkCmdPipelineBarrier(commands_.get(), stages, stages, 0, 1, &barrier, 0, nullptr, 0, nullptr);
 }
 
 double Commands::submit_and_wait() {
@@ -92,18 +81,19 @@ double Commands::submit_and_wait() {
   VkMemoryBarrier to_host{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
   to_host.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_WRITE_BIT;
   to_host.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
-  vkCmdPipelineBarrier(commands_,
+  vkCmdPipelineBarrier(commands_.get(),
                        VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                        VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &to_host, 0, nullptr, 0, nullptr);
   if (queries_.get() != VK_NULL_HANDLE) {
-    vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries_.get(), 1);
+    vkCmdWriteTimestamp(commands_.get(), VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries_.get(), 1);
   }
-  TRISECT_VK(vkEndCommandBuffer(commands_));
+  TRISECT_VK(vkEndCommandBuffer(commands_.get()));
 
   const auto start = std::chrono::steady_clock::now();
   VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
   submit.commandBufferCount = 1;
-  submit.pCommandBuffers = &commands_;
+  const VkCommandBuffer commands = commands_.get();
+  submit.pCommandBuffers = &commands;
   const VkFence fence = fence_.get();
   TRISECT_VK(vkQueueSubmit(device_->queue(), 1, &submit, fence));
   TRISECT_VK(

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "vk/buffer.h"
+#include "vk/command_buffer.h"
 #include "vk/kernel.h"
 
 namespace trisect::gpu {
@@ -37,10 +38,9 @@ class Commands {
   void order_after_writes();
 
   const Device* device_;
-  Owned<VkCommandPool, vkDestroyCommandPool> pool_;
+  CommandBuffer commands_;
   Owned<VkFence, vkDestroyFence> fence_;
   Owned<VkQueryPool, vkDestroyQueryPool> queries_;
-  VkCommandBuffer commands_ = VK_NULL_HANDLE;
 };
 
 // A buffer in host memory through which bytes reach device memory and come back, in pieces if need

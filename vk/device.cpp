@@ -12,16 +12,18 @@ namespace {
 
 const char* const kAddressExtension = VK_KHR_BUFFER_DEVICE_ADDRESS_EXTENSION_NAME;
 
-bool can_address_buffers(VkPhysicalDevice device) {
+bool has_extension(VkPhysicalDevice device, std::string_view name) {
   uint32_t count = 0;
   TRISECT_VK(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr));
   std::vector<VkExtensionProperties> extensions(count);
   TRISECT_VK(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()));
-  const bool known =
-      std::any_of(extensions.begin(), extensions.end(), [](const VkExtensionProperties& extension) {
-        return std::string_view(extension.extensionName) == kAddressExtension;
-      });
-  if (!known) return false;
+  return std::any_of(
+      extensions.begin(), extensions.end(),
+      [name](const VkExtensionProperties& extension) { return extension.extensionName == name; });
+}
+
+bool can_address_buffers(VkPhysicalDevice device) {
+  if (!has_extension(device, kAddressExtension)) return false;
   VkPhysicalDeviceBufferDeviceAddressFeaturesKHR addresses{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES_KHR};
   VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
@@ -30,14 +32,58 @@ bool can_address_buffers(VkPhysicalDevice device) {
   return addresses.bufferDeviceAddress == VK_TRUE;
 }
 
+// The queue family that computes, draws and shows pictures on the surface, or -1.
+int showing_family(VkPhysicalDevice device, VkSurfaceKHR surface) {
+  uint32_t count = 0;
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+  constexpr VkQueueFlags both = VK_QUEUE_COMPUTE_BIT | VK_QUEUE_GRAPHICS_BIT;
+  for (uint32_t i = 0; i < count; ++i) {
+    VkBool32 shows = VK_FALSE;
+    TRISECT_VK(vkGetPhysicalDeviceSurfaceSupportKHR(device, i, surface, &shows));
+    if ((families[i].queueFlags & both) == both && shows == VK_TRUE) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+// What the header of a pipeline cache has, and the driver's version.
+std::string key_of(const VkPhysicalDeviceProperties& properties) {
+  constexpr const char* digits = "0123456789abcdef";
+  std::string key;
+  const auto add = [&](uint32_t value, int count) {
+    for (int digit = count - 1; digit >= 0; --digit) {
+      key += digits[(value >> (4U * static_cast<uint32_t>(digit))) & 15U];
+    }
+  };
+  for (const uint32_t value :
+       {properties.vendorID, properties.deviceID, properties.driverVersion}) {
+    add(value, 8);
+    key += '-';
+  }
+  for (const uint8_t byte : properties.pipelineCacheUUID) add(byte, 2);
+  return key;
+}
+
 }  // namespace
 
-Device::Device(const Instance& instance, const std::string& request) {
+Device::Device(const Instance& instance, const std::string& request, VkSurfaceKHR surface) {
   const std::vector<DeviceReport> reports = instance.reports();
   const std::size_t index = choose_device(reports, request);
   const VkPhysicalDevice physical = instance.physical_devices()[index];
   report_ = reports[index];
-  family_ = static_cast<uint32_t>(compute_family(physical));
+  physical_ = physical;
+  int family = compute_family(physical);
+  std::vector<const char*> extensions;
+  if (surface != VK_NULL_HANDLE) {
+    const bool can_show = has_extension(physical, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    family = can_show ? showing_family(physical, surface) : -1;
+    if (family < 0) {
+      throw NoDevice("device " + report_.name + " cannot show pictures in this window.");
+    }
+    extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+  }
+  family_ = static_cast<uint32_t>(family);
 
   VkPhysicalDeviceSubgroupProperties subgroups{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
@@ -73,29 +119,48 @@ Device::Device(const Instance& instance, const std::string& request) {
   address_features.bufferDeviceAddress = VK_TRUE;
   if (addresses) {
     info.pNext = &address_features;
-    info.enabledExtensionCount = 1;
-    info.ppEnabledExtensionNames = &kAddressExtension;
+    extensions.push_back(kAddressExtension);
   }
-  TRISECT_VK(vkCreateDevice(physical, &info, nullptr, &device_));
-  vkGetDeviceQueue(device_, family_, 0, &queue_);
+  info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
+  TRISECT_VK(vkCreateDevice(physical, &info, nullptr, &handle_.device));
+  vkGetDeviceQueue(get(), family_, 0, &queue_);
+  const VkPipelineCacheCreateInfo cache_info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+  TRISECT_VK(vkCreatePipelineCache(get(), &cache_info, nullptr, pipeline_cache_.fill(get())));
+  pipeline_key_ = key_of(properties.properties);
   if (instance.can_name_objects()) {
     set_name_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
-        vkGetDeviceProcAddr(device_, "vkSetDebugUtilsObjectNameEXT"));
+        vkGetDeviceProcAddr(get(), "vkSetDebugUtilsObjectNameEXT"));
   }
   if (addresses) {
     address_of_ = reinterpret_cast<PFN_vkGetBufferDeviceAddressKHR>(
-        vkGetDeviceProcAddr(device_, "vkGetBufferDeviceAddressKHR"));
+        vkGetDeviceProcAddr(get(), "vkGetBufferDeviceAddressKHR"));
   }
-}
-
-Device::~Device() {
-  vkDestroyDevice(device_, nullptr);
 }
 
 VkDeviceAddress Device::address_of(VkBuffer buffer) const {
   VkBufferDeviceAddressInfo info{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO};
   info.buffer = buffer;
-  return address_of_(device_, &info);
+  return address_of_(get(), &info);
+}
+
+std::vector<std::byte> Device::pipeline_data() const {
+  std::size_t size = 0;
+  TRISECT_VK(vkGetPipelineCacheData(get(), pipeline_cache(), &size, nullptr));
+  std::vector<std::byte> data(size);
+  TRISECT_VK(vkGetPipelineCacheData(get(), pipeline_cache(), &size, data.data()));
+  data.resize(size);
+  return data;
+}
+
+void Device::add_pipeline_data(std::span<const std::byte> data) const {
+  VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+  info.initialDataSize = data.size();
+  info.pInitialData = data.data();
+  Owned<VkPipelineCache, vkDestroyPipelineCache> added;
+  TRISECT_VK(vkCreatePipelineCache(get(), &info, nullptr, added.fill(get())));
+  const VkPipelineCache from = added.get();
+  TRISECT_VK(vkMergePipelineCaches(get(), pipeline_cache(), 1, &from));
 }
 
 uint32_t Device::memory_type(uint32_t allowed, VkMemoryPropertyFlags required,
@@ -115,7 +180,7 @@ void Device::name_object(VkObjectType type, uint64_t handle, const std::string& 
   info.objectType = type;
   info.objectHandle = handle;
   info.pObjectName = text.c_str();
-  TRISECT_VK(set_name_(device_, &info));
+  TRISECT_VK(set_name_(get(), &info));
 }
 
 }  // namespace trisect::gpu

@@ -143,7 +143,8 @@ void MessageLog::clear() {
   messages_.clear();
 }
 
-Instance::Instance(bool validation) : log_(std::make_unique<MessageLog>()) {
+Instance::Instance(bool validation, std::span<const char* const> surface_extensions)
+    : log_(std::make_unique<MessageLog>()) {
   if (validation && !has_layer(kValidationLayer)) {
     throw NoDevice(std::string("--validation needs the Vulkan layer ") + kValidationLayer +
                    ", which is not installed (Debian: vulkan-validationlayers).");
@@ -153,7 +154,7 @@ Instance::Instance(bool validation) : log_(std::make_unique<MessageLog>()) {
     throw NoDevice("--validation needs the Vulkan extension " VK_EXT_DEBUG_UTILS_EXTENSION_NAME
                    ", which the loader does not have.");
   }
-  std::vector<const char*> extensions;
+  std::vector<const char*> extensions(surface_extensions.begin(), surface_extensions.end());
   if (debug_utils_) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
   if (validation) extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
 

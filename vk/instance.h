@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,9 +38,10 @@ class MessageLog {
 
 class Instance {
  public:
-  // validation: the Khronos layer with synchronisation validation. Throws NoDevice if there is no
+  // validation: the Khronos layer with synchronisation validation. surface_extensions: what a
+  // window system needs to show pictures, for a program that does. Throws NoDevice if there is no
   // Vulkan driver at all, or no validation layer where one is asked for.
-  explicit Instance(bool validation);
+  explicit Instance(bool validation, std::span<const char* const> surface_extensions = {});
   ~Instance();
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;

@@ -8,20 +8,10 @@
 
 #include "vk/buffer.h"
 #include "vk/device.h"
+#include "vk/layout.h"
 #include "vk/owned.h"
 
 namespace trisect::gpu {
-
-struct Binding {
-  uint32_t binding;
-  VkDescriptorType type;
-};
-
-// Descriptor set 0, push constants of push_size bytes, entry point "main".
-struct KernelInterface {
-  std::vector<Binding> bindings;
-  uint32_t push_size = 0;
-};
 
 struct Specialization {
   uint32_t constant_id;
@@ -40,8 +30,8 @@ class Kernel {
 
  private:
   KernelInterface interface_;
-  Owned<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout> set_layout_;
-  Owned<VkPipelineLayout, vkDestroyPipelineLayout> layout_;
+  SetLayout set_layout_;
+  PipelineLayout layout_;
   Owned<VkPipeline, vkDestroyPipeline> pipeline_;
 };
 
@@ -56,7 +46,7 @@ class BoundBuffers {
   [[nodiscard]] VkDescriptorSet get() const { return set_; }
 
  private:
-  Owned<VkDescriptorPool, vkDestroyDescriptorPool> pool_;
+  DescriptorPool pool_;
   VkDescriptorSet set_ = VK_NULL_HANDLE;
 };
 

@@ -38,6 +38,16 @@ Shader compiled(const std::string& head, const Stage& stage) {
 
 }  // namespace
 
+std::string device_name() {
+  return reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+}
+
+VertexArray make_vertex_array() {
+  GLuint name = 0;
+  glGenVertexArrays(1, &name);
+  return VertexArray(name);
+}
+
 void check(const std::string& what) {
   const GLenum error = glGetError();
   if (error == GL_NO_ERROR) return;

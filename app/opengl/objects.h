@@ -11,6 +11,9 @@
 
 namespace trisect::opengl {
 
+// GL_RENDERER.
+std::string device_name();
+
 // Throws gpu::Error if OpenGL has reported an error since it was asked last. `what`: what was done.
 void check(const std::string& what);
 
@@ -56,6 +59,8 @@ using Program = Owned<free_program>;
 using Texture = Owned<free_texture>;
 using Framebuffer = Owned<free_framebuffer>;
 using VertexArray = Owned<free_vertex_array>;
+
+VertexArray make_vertex_array();
 
 struct Stage {
   GLenum kind;

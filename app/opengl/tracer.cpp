@@ -11,6 +11,8 @@
 #include "app/buffer_limits.h"
 #include "app/cage.h"
 #include "app/kernels.h"
+#include "app/opengl/projection.h"
+#include "app/opengl/shader_head.h"
 #include "app/ray_queue.h"
 #include "app/stopwatch.h"
 #include "app/workgroups.h"
@@ -18,10 +20,6 @@
 
 namespace trisect::opengl {
 namespace {
-
-std::string device_name() {
-  return reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-}
 
 std::size_t storage_limit() {
   GLint64 limit = 0;
@@ -42,90 +40,16 @@ uint32_t band_rows(GlPath path, std::size_t limit, uint32_t width, uint32_t heig
   return rows_in_a_band(device_name(), limit, width, height, aovs || path == GlPath::fragment);
 }
 
-// What frame_buffers.glsl expects ahead of it.
-std::string head_for(const BakedScene& scene, const KernelChoice& choice) {
-  std::string head = "#version 430 core\n";
-  const auto define = [&](const char* name, uint value) {
-    head += fmt::format("#define VALUE_{} {}u\n", name, value);
-  };
-  define("SURFACE", scene.choice.surface);
-  define("SHELL", scene.choice.shell);
-  define("SOLVER", choice.solver);
-  define("AOVS", choice.aovs ? 1 : 0);
-  define("COUNTS", choice.counts ? 1 : 0);
-  define("GROUPS", has_groups(scene) ? 1 : 0);
-  return head;
-}
-
 Program program_for(const BakedScene& scene, const KernelChoice& choice, GlPath path) {
-  const std::string head = head_for(scene, choice);
+  const std::string head = shader_head(scene, choice, false);
   if (path == GlPath::compute) return make_program(head, {{GL_COMPUTE_SHADER, kTraceListComp}});
   return make_program(head,
                       {{GL_VERTEX_SHADER, kFullScreenVert}, {GL_FRAGMENT_SHADER, kTraceListFrag}});
 }
 
-// View and projection of points relative to the eye, from the rays that the other kernels have: its
-// inverse takes the clip volume's near face to the image's near points.
-glm::dmat4 view_projection(const TraceParams& params) {
-  const glm::dvec3 right = glm::dvec3(params.ray_dx) * (0.5 * params.width);
-  const glm::dvec3 down = glm::dvec3(params.ray_dy) * (0.5 * params.height);
-  const glm::dvec3 center = glm::dvec3(params.ray_corner) + right + down;
-  // The far points are the near ones times this: w is 1 at z = -1 and 1 / ratio at z = 1.
-  const double ratio = params.eye.w;
-  const double w_middle = 0.5 * (1.0 + 1.0 / ratio);
-  const double w_slope = 0.5 * (1.0 / ratio - 1.0);
-  return glm::inverse(glm::dmat4(glm::dvec4(right, 0.0), glm::dvec4(-down, 0.0),
-                                 glm::dvec4(0.0, 0.0, 0.0, w_slope), glm::dvec4(center, w_middle)));
-}
-
-std::vector<Texture> make_textures(uint32_t width, uint32_t rows, bool aovs) {
-  std::vector<Texture> textures;
-  constexpr std::array<GLenum, 4> formats{GL_RGBA32F, GL_RGBA32F, GL_RGBA32F, GL_RGBA32UI};
-  for (const GLenum format : formats) {
-    GLuint name = 0;
-    glGenTextures(1, &name);
-    textures.emplace_back(name);
-    glBindTexture(GL_TEXTURE_2D, name);
-    glTexStorage2D(GL_TEXTURE_2D, 1, format, static_cast<GLsizei>(width),
-                   static_cast<GLsizei>(rows));
-    if (!aovs) break;
-  }
-  check(fmt::format("no memory for a framebuffer of {}x{}", width, rows));
-  return textures;
-}
-
-Framebuffer make_framebuffer(const std::vector<Texture>& textures) {
-  GLuint name = 0;
-  glGenFramebuffers(1, &name);
-  Framebuffer framebuffer(name);
-  glBindFramebuffer(GL_FRAMEBUFFER, name);
-  std::vector<GLenum> attachments;
-  for (std::size_t i = 0; i < textures.size(); ++i) {
-    attachments.push_back(static_cast<GLenum>(GL_COLOR_ATTACHMENT0 + i));
-    glFramebufferTexture(GL_FRAMEBUFFER, attachments.back(), textures[i].get(), 0);
-  }
-  glDrawBuffers(static_cast<GLsizei>(attachments.size()), attachments.data());
-  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-    throw gpu::Error(fmt::format("device {} has no framebuffers of floats.", device_name()));
-  }
-  return framebuffer;
-}
-
-VertexArray make_vertex_array() {
-  GLuint name = 0;
-  glGenVertexArrays(1, &name);
-  return VertexArray(name);
-}
-
-// An attachment's pixels, rows from below.
-template <typename Pixel>
-std::vector<Pixel> read_attachment(std::size_t attachment, GLenum format, GLenum type,
-                                   uint32_t width, uint32_t rows) {
-  std::vector<Pixel> pixels(std::size_t{width} * rows);
-  glReadBuffer(static_cast<GLenum>(GL_COLOR_ATTACHMENT0 + attachment));
-  glReadPixels(0, 0, static_cast<GLsizei>(width), static_cast<GLsizei>(rows), format, type,
-               pixels.data());
-  return pixels;
+std::optional<Program> shadow_program_for(const BakedScene& scene, const KernelChoice& choice) {
+  if (!choice.shadows) return std::nullopt;
+  return make_program(shader_head(scene, choice, true), {{GL_COMPUTE_SHADER, kTraceListComp}});
 }
 
 }  // namespace
@@ -137,7 +61,7 @@ Tracer::Tracer(const BakedScene& scene, uint32_t width, uint32_t height, const K
       aovs_(choice.aovs),
       path_(path),
       buffer_limit_(std::min(buffer_limit, storage_limit())),
-      band_rows_(band_rows(path, buffer_limit_, width, height, choice.aovs)),
+      band_rows_(band_rows(path, buffer_limit_, width, height, choice.writes_aovs())),
       triangles_(triangle_bytes(device_name(), buffer_limit_, scene), "triangles"),
       cages_(cage_bytes(device_name(), buffer_limit_, scene), "cages"),
       params_(sizeof(TraceParams), "trace parameters"),
@@ -148,7 +72,8 @@ Tracer::Tracer(const BakedScene& scene, uint32_t width, uint32_t height, const K
                         sizeof(PausedRay)
                   : std::size_t{width} * band_rows_ * sizeof(PausedRay),
               "paused rays"),
-      program_(program_for(scene, choice, path)) {
+      program_(program_for(scene, choice, path)),
+      shadow_program_(shadow_program_for(scene, choice)) {
   const Stopwatch watch;
   triangles_.write(std::as_bytes(std::span(scene.triangles)));
   if (!scene.cages.empty()) cages_.write(std::as_bytes(std::span(scene.cages)));
@@ -156,17 +81,15 @@ Tracer::Tracer(const BakedScene& scene, uint32_t width, uint32_t height, const K
   if (path == GlPath::compute) {
     const std::size_t pixels = std::size_t{width} * band_rows_;
     colors_.emplace(pixels * sizeof(vec4), "colors");
-    aovs_buffer_.emplace((choice.aovs ? pixels : 1) * sizeof(PixelAovs), "AOVs");
+    aovs_buffer_.emplace((choice.writes_aovs() ? pixels : 1) * sizeof(PixelAovs), "AOVs");
   } else {
-    textures_ = make_textures(width, band_rows_, choice.aovs);
-    framebuffer_ = make_framebuffer(textures_);
+    target_.emplace(width, band_rows_, choice.aovs);
     vertices_ = make_vertex_array();
   }
   check("the scene was uploaded");
 }
 
 void Tracer::bind() const {
-  glUseProgram(program_.get());
   params_.bind(GL_UNIFORM_BUFFER, BINDING_PARAMS);
   triangles_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_TRIANGLES);
   cages_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_CAGES);
@@ -191,11 +114,14 @@ FrameTime Tracer::render(const TraceParams& params, Frame& frame,
   for (uint32_t row = 0; row < height_; row += band_rows_) {
     const uint32_t rows = std::min(band_rows_, height_ - row);
     if (path_ == GlPath::compute) {
-      time.gpu_ms += compute_band(row, rows, between_submits);
+      time.gpu_ms += compute_band(program_, row, rows, between_submits);
+      if (shadow_program_) {
+        time.gpu_ms += compute_band(*shadow_program_, row, rows, between_submits);
+      }
       read_buffers(row, rows, frame);
     } else {
       time.gpu_ms += draw_band(params, row, rows, between_submits);
-      read_framebuffer(row, rows, frame);
+      target_->read(row, rows, frame);
     }
   }
   check("a frame was rendered");
@@ -214,9 +140,10 @@ uint32_t Tracer::submit(const TilePush& push, const std::function<void()>& work)
   return queued;
 }
 
-double Tracer::compute_band(uint32_t first_row, uint32_t rows,
+double Tracer::compute_band(const Program& program, uint32_t first_row, uint32_t rows,
                             const std::function<void()>& between_submits) {
   const GroupRange groups = groups_of_band(width_, first_row, rows);
+  glUseProgram(program.get());
   double total_ms = 0.0;
   for (uint32_t group = groups.begin; group < groups.end;) {
     const uint32_t count = std::min({budget_.groups(), groups.end - group, groups.most()});
@@ -239,7 +166,8 @@ double Tracer::draw_band(const TraceParams& params, uint32_t first_row, uint32_t
                          const std::function<void()>& between_submits) {
   // OpenGL counts rows from below: the band's lowest one is this.
   const uint32_t lowest = height_ - first_row - rows;
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+  glUseProgram(program_.get());
+  target_->bind();
   glBindVertexArray(vertices_.get());
   glViewport(0, -static_cast<GLint>(lowest), static_cast<GLsizei>(width_),
              static_cast<GLsizei>(height_));
@@ -271,32 +199,6 @@ void Tracer::read_buffers(uint32_t first_row, uint32_t rows, Frame& frame) const
   colors_->read(0, std::as_writable_bytes(std::span(frame.colors).subspan(first, count)));
   if (!aovs_) return;
   aovs_buffer_->read(0, std::as_writable_bytes(std::span(frame.aovs).subspan(first, count)));
-}
-
-void Tracer::read_framebuffer(uint32_t first_row, uint32_t rows, Frame& frame) const {
-  // Calls `put` with pairs of indices, of a pixel in the framebuffer and in the frame.
-  const auto for_each_pixel = [&](auto&& put) {
-    for (uint32_t y = 0; y < rows; ++y) {
-      for (uint32_t x = 0; x < width_; ++x) {
-        put(std::size_t{rows - 1 - y} * width_ + x, std::size_t{first_row + y} * width_ + x);
-      }
-    }
-  };
-  const auto colors = read_attachment<vec4>(0, GL_RGBA, GL_FLOAT, width_, rows);
-  for_each_pixel([&](std::size_t from, std::size_t to) { frame.colors[to] = colors[from]; });
-  if (!aovs_) return;
-  const auto normals = read_attachment<vec4>(1, GL_RGBA, GL_FLOAT, width_, rows);
-  const auto geometric = read_attachment<vec4>(2, GL_RGBA, GL_FLOAT, width_, rows);
-  const auto rest = read_attachment<glm::uvec4>(3, GL_RGBA_INTEGER, GL_UNSIGNED_INT, width_, rows);
-  for_each_pixel([&](std::size_t from, std::size_t to) {
-    PixelAovs& aov = frame.aovs[to];
-    aov.normal_z = normals[from];
-    aov.geometric_u = geometric[from];
-    std::memcpy(&aov.v, &rest[from].x, sizeof(aov.v));
-    aov.triangle = rest[from].y;
-    aov.evaluations = rest[from].z;
-    aov.candidates = rest[from].w;
-  });
 }
 
 }  // namespace trisect::opengl

@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <vector>
 
 #include "app/bake.h"
 #include "app/buffer_limits.h"
 #include "app/frame.h"
 #include "app/frame_time.h"
 #include "app/kernel_choice.h"
+#include "app/opengl/frame_target.h"
 #include "app/opengl/objects.h"
 #include "app/options.h"
 #include "app/submit_budget.h"
@@ -35,12 +35,11 @@ class Tracer {
   void bind() const;
   // Runs `work` with these push constants and returns how many rays have paused.
   uint32_t submit(const TilePush& push, const std::function<void()>& work);
-  double compute_band(uint32_t first_row, uint32_t rows,
+  double compute_band(const Program& program, uint32_t first_row, uint32_t rows,
                       const std::function<void()>& between_submits);
   double draw_band(const TraceParams& params, uint32_t first_row, uint32_t rows,
                    const std::function<void()>& between_submits);
   void read_buffers(uint32_t first_row, uint32_t rows, Frame& frame) const;
-  void read_framebuffer(uint32_t first_row, uint32_t rows, Frame& frame) const;
 
   uint32_t width_;
   uint32_t height_;
@@ -55,12 +54,12 @@ class Tracer {
   Buffer queued_;
   Buffer paused_;  // compute: RayQueue's two halves; fragment: a place for each pixel
   Program program_;
+  std::optional<Program> shadow_program_;
   // The compute path's outputs.
   std::optional<Buffer> colors_;
   std::optional<Buffer> aovs_buffer_;
   // The fragment path's.
-  std::vector<Texture> textures_;
-  Framebuffer framebuffer_;
+  std::optional<FrameTarget> target_;
   VertexArray vertices_;
   double upload_ms_ = 0.0;
   SubmitBudget budget_;

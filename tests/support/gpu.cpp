@@ -27,13 +27,9 @@ Frame trace(const BakedScene& baked, const TraceSettings& settings) {
 
 TraceSettings framed(const Mesh& mesh, const BakedScene& scene, uint32_t width, uint32_t height,
                      uint32_t rank) {
-  TraceSettings settings;
-  settings.width = width;
-  settings.height = height;
+  TraceSettings settings = framed_settings(mesh, scene, width, height);
   settings.solver = SOLVER_BISECT;
   settings.rank = rank;
-  settings.camera = framing_camera(mesh.positions, scene.origin, 45.0, {0.0, 1.0, 0.0},
-                                   static_cast<double>(width) / static_cast<double>(height));
   return settings;
 }
 

@@ -8,20 +8,14 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <thread>
 
+#include "tests/support/file_content.h"
 #include "tests/support/temporary_folder.h"
 
 namespace trisect::test {
 namespace {
-
-std::string content(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 ProgramRun run(const std::vector<std::string>& arguments,
                const std::vector<std::string>& environment, int interrupt_after_ms) {
@@ -65,7 +59,7 @@ ProgramRun run(const std::vector<std::string>& arguments,
   int status = 0;
   waitpid(child, &status, 0);
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return {code, content(out), content(err)};
+  return {code, content_of(out), content_of(err)};
 }
 
 }  // namespace

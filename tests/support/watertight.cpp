@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "app/bvh.h"
 #include "app/cage.h"
 #include "app/oracle.h"
 #include "app/ray_caster.h"
@@ -82,7 +83,8 @@ class Aim {
 }  // namespace
 
 Leaks count_leaks(const std::string& asset, uint32_t surface, std::size_t count, uint64_t seed) {
-  const BakedScene scene = bake_with_cages(load_asset(asset), {surface, 0.65, SHELL_NORMAL});
+  BakedScene scene = bake_with_cages(load_asset(asset), {surface, 0.65, SHELL_NORMAL});
+  scene.bvh = build_bvh(scene);
   const Oracle oracle(scene);
   RayCaster caster(validated_device(), scene, make_params(scene, {}), SOLVER_ROBUST);
   Aim aim(scene, seed);

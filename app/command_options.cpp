@@ -1,0 +1,59 @@
+#include "app/command_options.h"
+
+#include <algorithm>
+
+namespace trisect {
+
+CLI::Validator not_empty() {
+  return CLI::Validator(
+      [](const std::string& text) -> std::string { return text.empty() ? "is empty" : ""; }, "");
+}
+
+CLI::Validator one_of(const std::vector<std::string>& names) {
+  return CLI::Validator(
+      [names](const std::string& text) -> std::string {
+        if (std::find(names.begin(), names.end(), text) != names.end()) return {};
+        return fmt::format("'{}' is not one of: {}", text, fmt::join(names, ", "));
+      },
+      "");
+}
+
+uint surface_of(const std::string& name) {
+  return name == "flat" ? SURFACE_FLAT : name == "phong" ? SURFACE_PHONG : SURFACE_SPHERE;
+}
+
+uint shell_of(const std::string& name) {
+  return name == "height" ? SHELL_HEIGHT : SHELL_NORMAL;
+}
+
+void add_models(CLI::App& command, std::vector<std::string>& models) {
+  command.add_option("MODEL", models, "OBJ files")
+      ->required()
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+void add_size(CLI::App& command, std::optional<std::string>& size, const std::string& standard) {
+  command.add_option("--size", size, "Image size in pixels, default " + standard)->type_name("WxH");
+}
+
+void add_surfaces(CLI::App& command, std::optional<std::string>& surface) {
+  command.add_option("--surface", surface, "flat, phong or sphere, default phong and sphere")
+      ->check(one_of({"flat", "phong", "sphere"}))
+      ->type_name("NAME");
+}
+
+void add_device(CLI::App& command, std::string& device) {
+  command
+      .add_option("--device", device,
+                  "Vulkan device: its number in `trisect devices` or a part of its name")
+      ->check(not_empty())
+      ->type_name("D");
+}
+
+void add_table_json(CLI::App& command, std::string& json) {
+  command.add_option("--json", json, "Write the table as JSON")
+      ->check(not_empty())
+      ->type_name("FILE");
+}
+
+}  // namespace trisect

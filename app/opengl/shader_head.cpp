@@ -1,0 +1,24 @@
+#include "app/opengl/shader_head.h"
+
+#include <fmt/format.h>
+
+#include "app/cage.h"
+
+namespace trisect::opengl {
+
+std::string shader_head(const BakedScene& scene, const KernelChoice& choice, bool shadows) {
+  std::string head = "#version 430 core\n";
+  const auto define = [&](const char* name, uint value) {
+    head += fmt::format("#define VALUE_{} {}u\n", name, value);
+  };
+  define("SURFACE", scene.choice.surface);
+  define("SHELL", scene.choice.shell);
+  define("SOLVER", choice.solver);
+  define("AOVS", choice.writes_aovs() ? 1 : 0);
+  define("COUNTS", choice.counts ? 1 : 0);
+  define("GROUPS", has_groups(scene) ? 1 : 0);
+  define("SHADOWS", shadows ? 1 : 0);
+  return head;
+}
+
+}  // namespace trisect::opengl

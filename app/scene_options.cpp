@@ -1,0 +1,139 @@
+#include "app/scene_options.h"
+
+#include "app/accel.h"
+#include "app/command_options.h"
+#include "app/error.h"
+
+namespace trisect {
+namespace {
+
+void add_gl_path(CLI::App& command, std::optional<std::string>& text) {
+  command
+      .add_option("--gl-path", text,
+                  "How OpenGL traces: compute (Vulkan's kernel) or fragment (the thesis's "
+                  "full-screen quad), default compute")
+      ->check(one_of({"compute", "fragment"}))
+      ->type_name("NAME");
+}
+
+// None of the name auto.
+std::optional<Accel> accel_of(const std::string& name) {
+  for (const Accel accel : {Accel::list, Accel::tiles, Accel::bvh}) {
+    if (name == accel_name(accel)) return accel;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void add_scene(CLI::App& command, RenderOptions& options, SceneText& text) {
+  // As add_view has it: the last one counts.
+  command.add_option("MODEL", options.model, "OBJ file")->required()->take_last();
+  add_view(command, options, text);
+  add_gl_path(command, text.gl_path);
+  add_device(command, options.device);
+}
+
+void add_view(CLI::App& command, RenderOptions& options, SceneText& text) {
+  // Of an option that is given twice the last one counts.
+  command.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  add_size(command, text.size, "800x600");
+  command
+      .add_option("--surface", text.surface,
+                  "How triangles are curved: flat, phong or sphere, default phong")
+      ->check(one_of({"flat", "phong", "sphere"}))
+      ->type_name("NAME");
+  command
+      .add_option("--alpha", options.alpha,
+                  "phong: from 0 (flat) to 1 (full projection) and beyond, default 0.65")
+      ->check(number_from_to(-1000.0, 1000.0))
+      ->type_name("A");
+  command
+      .add_option("--shell", text.shell,
+                  "Along what they are displaced: normal (watertight) or height (the thesis's), "
+                  "default normal")
+      ->check(one_of({"normal", "height"}))
+      ->type_name("NAME");
+  command
+      .add_option("--solver", text.solver,
+                  "How roots are found: robust (the first one, surely) or bisect (the thesis's), "
+                  "default robust")
+      ->check(one_of({"robust", "bisect"}))
+      ->type_name("NAME");
+  command
+      .add_option(
+          "--accel", text.accel,
+          "What a ray is tried against: list (every patch, the thesis's), tiles (those "
+          "that its tile of the image touches), bvh (those that a tree of boxes finds; both "
+          "vulkan, robust) or auto, default auto")
+      ->check(one_of({"list", "tiles", "bvh", "auto"}))
+      ->type_name("NAME");
+  command
+      .add_option("--preset", text.preset,
+                  "thesis: --shell height --solver bisect --rank 10, but for what is given beside")
+      ->check(one_of({"thesis"}))
+      ->type_name("NAME");
+  command
+      .add_option("--rank", text.rank,
+                  "bisect: resolves a triangle's chord to 2^-N, 1 to 60, default 10")
+      ->check(number_from_to(1, 60))
+      ->type_name("N");
+  command.add_option("--eye", text.eye, "Position of the camera, default: frames the model")
+      ->type_name("X,Y,Z");
+  command.add_option("--target", text.target, "Point it looks at, default: the model's centre")
+      ->type_name("X,Y,Z");
+  command.add_option("--up", text.up, "Its up vector, default 0,1,0")->type_name("X,Y,Z");
+  command
+      .add_option("--light", text.light,
+                  "Direction toward the light, of any length, default 0.35,0.8,0.5")
+      ->type_name("X,Y,Z");
+  command.add_flag("--shadows", options.shadows,
+                   "Cast a ray from what is seen toward the light: the curved triangles shade "
+                   "each other and themselves (robust)");
+  command
+      .add_option("--fov", options.fov,
+                  "Its vertical field of view in degrees, 1 to 170, default 45")
+      ->check(number_from_to(1.0, 170.0))
+      ->type_name("DEG");
+  command
+      .add_option("--crease", options.crease,
+                  "Rebuild the normals, sharp where faces meet at more than this angle, 0 to 180")
+      ->check(number_from_to(0.0, 180.0))
+      ->type_name("DEG");
+}
+
+void add_spp(CLI::App& command, uint32_t& spp) {
+  command
+      .add_option("--spp", spp, "Rays a pixel, averaged in linear light: 1, 4, 9 or 16, default 1")
+      ->check(CLI::IsMember({1, 4, 9, 16}))
+      ->type_name("N");
+}
+
+void parse_scene(const SceneText& text, RenderOptions& options) {
+  if (!text.surface.empty()) options.surface = surface_of(text.surface);
+  if (text.gl_path) {
+    options.gl_path = *text.gl_path == "fragment" ? GlPath::fragment : GlPath::compute;
+  }
+  if (text.preset) {
+    options.shell = SHELL_HEIGHT;
+    options.solver = SOLVER_BISECT;
+    options.rank = RenderOptions{}.rank;
+  }
+  if (text.shell) options.shell = shell_of(*text.shell);
+  if (text.solver) options.solver = *text.solver == "bisect" ? SOLVER_BISECT : SOLVER_ROBUST;
+  if (text.rank) options.rank = *text.rank;
+  if (text.accel) options.accel = accel_of(*text.accel);
+  if (text.size) parse_size("--size", *text.size, options.width, options.height);
+  if (text.eye) options.eye = parse_triple("--eye", *text.eye);
+  if (text.target) options.target = parse_triple("--target", *text.target);
+  if (text.up) options.up = parse_triple("--up", *text.up);
+  if (options.shadows && options.solver == SOLVER_BISECT) {
+    throw UsageError("--shadows: it needs --solver robust.");
+  }
+  if (options.shadows && options.gl_path == GlPath::fragment) {
+    throw UsageError("--shadows: it needs --gl-path compute.");
+  }
+  if (text.light) options.light = parse_direction("--light", *text.light);
+}
+
+}  // namespace trisect

@@ -1,0 +1,18 @@
+#version 450
+// What is behind everything.
+#extension GL_GOOGLE_include_directive : require
+#include "language.h"
+#include "shared.h"
+#include "solvers.glsl"
+#include "frame_buffers.glsl"
+#include "rays.glsl"
+#include "every_part.glsl"
+#include "trace.glsl"
+#include "fragment_outputs.glsl"
+
+void main() {
+  vec4 color;
+  PixelAovs aovs;
+  shade_pixel(pixel_ray(fragment_pixel(0u)), walk_begun(0).hit, color, aovs);
+  write_fragment(color, aovs);
+}

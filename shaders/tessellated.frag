@@ -1,0 +1,29 @@
+#version 450
+// A pixel of a flat triangle, shaded as what a ray has met there.
+#extension GL_GOOGLE_include_directive : require
+#include "language.h"
+#include "shared.h"
+#include "solvers.glsl"
+#include "frame_buffers.glsl"
+
+in vec3 weights;
+in vec3 from_eye;
+flat in uint triangle;
+
+#include "rays.glsl"
+#include "every_part.glsl"
+#include "trace.glsl"
+#include "fragment_outputs.glsl"
+
+void main() {
+  PixelRay ray = pixel_ray(fragment_pixel(0u));
+  Hit hit;
+  hit.z = length3(from_eye);
+  hit.weights = weights;
+  hit.triangle = triangle;
+  hit.part = 0u;
+  vec4 color;
+  PixelAovs aovs;
+  shade_pixel(ray, hit, color, aovs);
+  write_fragment(color, aovs);
+}

@@ -1,0 +1,3 @@
+#version 450
+// Nothing: tessellated.tese knows its triangle by number.
+void main() {}
