@@ -12,6 +12,19 @@ int render(const RenderOptions& options);
 // does not keep its promises.
 int accuracy(const AccuracyOptions& options);
 
+// Times the ways to make a frame beside each other and prints a table.
+int bench_speed(const BenchOptions& options);
+
+// Measures time against error of every way to draw the models, and writes a report into a folder.
+int bench_pareto(const ParetoOptions& options);
+
+// Measures what each step from the thesis's way to this program's is worth, and writes a report
+// into a folder.
+int bench_ablation(const AblationOptions& options);
+
+// Measures errors over distance, scale and their like, and writes a report into a folder.
+int bench_stability(const StabilityOptions& options);
+
 // Measures the solvers on the catalogue of hard cases and prints the table; returns an exit code.
 int hardcases(const HardcasesOptions& options);
 

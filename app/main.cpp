@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/bench/command_line.h"
 #include "app/command_options.h"
 #include "app/commands.h"
 #include "app/error.h"
@@ -167,6 +168,7 @@ int run(int argc, char** argv) {
   AccuracyOptions accuracy_options;
   AccuracyText accuracy_text;
   add_accuracy(app, accuracy_options, accuracy_text);
+  bench::CommandLine bench(app);
   HardcasesOptions hardcases_options;
   std::string hardcases_backend;
   add_hardcases(app, hardcases_options, hardcases_backend);
@@ -193,6 +195,7 @@ int run(int argc, char** argv) {
   }
   if (app.got_subcommand("devices")) return list_devices();
   if (app.got_subcommand("accuracy")) return run_accuracy(accuracy_options, accuracy_text);
+  if (app.got_subcommand("bench")) return bench.run();
   if (app.got_subcommand("crosscheck")) return run_crosscheck(crosscheck_options, crosscheck_text);
   if (app.got_subcommand("compare")) return run_compare(compare_options, thresholds);
   if (app.got_subcommand("hardcases")) {

@@ -160,6 +160,117 @@ TEST_F(Program, LightsFromADirection) {
   EXPECT_GT(front.colors.at(middle).x, 2.0F * back.colors.at(middle).x);
 }
 
+TEST_F(Program, TimesTheContenders) {
+  expect_complaint(test::run_trisect({"bench"}), 2, "subcommand");
+  expect_complaint(test::run_trisect({"bench", "speed", "none.obj"}), 3, "none.obj");
+  const test::ProgramRun run = test::run_trisect(
+      {"bench", "speed", test::asset_path("sphere-20"), "--size", "80x60", "--runs", "1",
+       "--surface", "phong", "--error", "1e-4", "--json", folder_ / "b.json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::ifstream file(folder_ / "b.json");
+  const auto rows = nlohmann::json::parse(file)["rows"];
+  ASSERT_EQ(rows.size(), 7U);
+  for (const auto& row : rows) {
+    EXPECT_GT(row["ms"]["median"].get<double>(), 0.0);
+    if (row["contender"] == "image only") continue;
+    EXPECT_GE(row["checked_pixels"].get<int>(), 10);
+    const std::string name = row["contender"];
+    if (name.find("robust") != std::string::npos) {
+      EXPECT_EQ(row["wrong_pixels"].get<int>(), 0);
+    }
+    if (name.find("Embree") != std::string::npos) {
+      EXPECT_LE(row["flat_error"].get<double>(), 1e-4);
+    }
+  }
+}
+
+TEST_F(Program, ReportsSpeedAgainstError) {
+  expect_complaint(test::run_trisect({"bench", "pareto", "none.obj", "-o", folder_ / "r"}), 3,
+                   "none.obj");
+  expect_complaint(test::run_trisect({"bench", "pareto", test::asset_path("sphere-20")}), 2, "-o");
+  // Not such a table.
+  expect_complaint(
+      test::run_trisect({"bench", "pareto", test::asset_path("sphere-20"), "--hardcases",
+                         test::asset_path("sphere-20"), "-o", folder_ / "r"}),
+      3, "sphere-20.obj: is not what trisect hardcases");
+  // No program is found there.
+  expect_complaint(
+      test::run_trisect({"bench", "pareto", test::asset_path("sphere-20"), "-o", folder_ / "r"},
+                        {"PATH=/nowhere"}),
+      3, "gnuplot");
+  const std::string table = folder_ / "table.json";
+  std::ofstream(table) << R"({"device": "a device", "driver": "a driver", "rows": [{
+    "case": "needle", "surface": "phong", "shell": "normal", "solver": "robust", "rays": 120,
+    "undecidable": 1, "wrong": 0, "missed": 0, "depth_error_ulp_p50": 0.1,
+    "depth_error_ulp_p99": 0.5, "depth_error_ulp_max": 0.7, "nans": 0, "evaluations_per_ray": 3.25,
+    "verdict": "pass", "note": ""}]})";
+  const test::ProgramRun run =
+      test::run_trisect({"bench", "pareto", test::asset_path("sphere-80"), "--quick", "--surface",
+                         "phong", "--size", "80x60", "--hardcases", table, "-o", folder_ / "r"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(test::content_of(folder_ / "r" / "report.md").find("| needle |"), std::string::npos);
+  for (const char* name : {"report.md", "report.html", "report.csv", "sphere-80-phong.svg",
+                           "sphere-80-phong.png", "sphere-80-phong-thesis.png"}) {
+    EXPECT_GT(std::filesystem::file_size(folder_ / "r" / name), 500U) << name;
+  }
+  std::ifstream file(folder_ / "r" / "report.json");
+  const auto scene = nlohmann::json::parse(file)["scenes"][0];
+  double thesis = 0.0;
+  bool robust_on_front = false;
+  for (const auto& one : scene["measurements"]) {
+    const std::string family = one["family"];
+    if (family == "thesis, height shell" && one["number"] == "Rank 10") thesis = one["rms"];
+    if (family.rfind("robust", 0) != 0) continue;
+    EXPECT_LT(one["rms"].get<double>(), 1e-6);
+    EXPECT_EQ(one["wrong_hits"].get<int>() + one["missed"].get<int>(), 0);
+    robust_on_front = robust_on_front || one["on_front"].get<bool>();
+  }
+  // Nothing else is as exact, so the fastest of its ways, whichever that was, is dominated by none.
+  EXPECT_TRUE(robust_on_front);
+  // It drops pixels.
+  EXPECT_GT(thesis, 0.1);
+}
+
+TEST_F(Program, ReportsWhatEachStepIsWorth) {
+  expect_complaint(test::run_trisect({"bench", "ablation", "none.obj", "-o", folder_ / "a"}), 3,
+                   "none.obj");
+  expect_complaint(test::run_trisect({"bench", "ablation", test::asset_path("sphere-20")}), 2,
+                   "-o");
+  const test::ProgramRun run =
+      test::run_trisect({"bench", "ablation", test::asset_path("sphere-20"), "--surface", "phong",
+                         "--size", "80x60", "--runs", "1", "-o", folder_ / "a"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const char* name :
+       {"ablation.md", "ablation.html", "sphere-20-phong.svg", "sphere-20-phong.png"}) {
+    EXPECT_GT(std::filesystem::file_size(folder_ / "a" / name), 500U) << name;
+  }
+  std::ifstream file(folder_ / "a" / "ablation.json");
+  const auto steps = nlohmann::json::parse(file)["ablations"][0]["steps"];
+  ASSERT_EQ(steps.size(), 8U);
+  const auto wrong = [](const nlohmann::json& step) {
+    return step["wrong_hits"].get<int>() + step["missed"].get<int>();
+  };
+  // The bisection loses pixels, and fewer at the higher Rank; from the robust solver on nothing is
+  // lost.
+  EXPECT_GT(wrong(steps[0]), 10 * wrong(steps[1]));
+  for (std::size_t i = 3; i < steps.size(); ++i) EXPECT_EQ(wrong(steps[i]), 0) << i;
+  // Tighter bounds leave fewer candidates; without tiles a ray meets the balls alone.
+  EXPECT_LT(steps[5]["candidates"].get<int>(), steps[4]["candidates"].get<int>());
+}
+
+TEST_F(Program, ReportsStability) {
+  expect_complaint(test::run_trisect({"bench", "stability"}), 2, "-o");
+  const test::ProgramRun run =
+      test::run_trisect({"bench", "stability", "--rays", "2", "-o", folder_ / "s"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const char* name :
+       {"stability.md", "stability.html", "stability.csv", "stability.svg", "stability.png"}) {
+    EXPECT_GT(std::filesystem::file_size(folder_ / "s" / name), 500U) << name;
+  }
+  std::ifstream file(folder_ / "s" / "stability.json");
+  EXPECT_EQ(nlohmann::json::parse(file)["curves"].size(), 15U);
+}
+
 TEST_F(Program, CastsShadows) {
   expect_complaint(render({"--shadows", "--solver", "bisect"}), 2, "--solver robust");
   expect_complaint(render({"--shadows", "--gl-path", "fragment"}), 2, "--gl-path compute");

@@ -1,0 +1,131 @@
+#include "app/bench/command_line.h"
+
+#include <fmt/format.h>
+
+#include "app/command_options.h"
+#include "app/commands.h"
+
+namespace trisect::bench {
+namespace {
+
+CLI::App& subcommand(CLI::App& bench, const std::string& name, const std::string& what) {
+  CLI::App* command = bench.add_subcommand(name, what);
+  // Of an option that is given twice the last one counts.
+  command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  return *command;
+}
+
+void add_report_folder(CLI::App& command, std::string& output) {
+  command.add_option("-o,--output", output, "Folder to write the report into")
+      ->required()
+      ->check(not_empty())
+      ->type_name("DIR");
+}
+
+}  // namespace
+
+CommandLine::CommandLine(CLI::App& app)
+    : bench_(*app.add_subcommand(
+          "bench",
+          "Measure: speed, pareto, ablation or stability; see trisect bench speed --help")) {
+  bench_.require_subcommand(1);
+  add_speed();
+  add_pareto();
+  add_ablation();
+  add_stability();
+}
+
+void CommandLine::add_frames(CLI::App& command, const MeasuredModels& defaults) {
+  add_size(command, text_.size, fmt::format("{}x{}", defaults.width, defaults.height));
+  add_surfaces(command, text_.surface);
+  command
+      .add_option("--runs", text_.runs,
+                  fmt::format("Frames to time after a warm-up, default {}", defaults.runs))
+      ->check(number_from_to(1, 1000))
+      ->type_name("N");
+}
+
+void CommandLine::add_speed() {
+  CLI::App& command = subcommand(
+      bench_, "speed",
+      "Time the thesis's way, this program's and Embree's on flat triangles, beside each other");
+  add_models(command, speed_.models);
+  add_frames(command, speed_);
+  command
+      .add_option("--error", speed_.error,
+                  "How far Embree's flat triangles may be off the surface, over the model's "
+                  "radius, default 1e-6")
+      ->check(number_from_to(1e-9, 1.0))
+      ->type_name("E");
+  add_device(command, speed_.device);
+  add_table_json(command, speed_.json);
+}
+
+void CommandLine::add_pareto() {
+  CLI::App& command = subcommand(
+      bench_, "pareto",
+      "Measure time against error of every way to draw the models, and write a report with plots");
+  add_models(command, pareto_.models);
+  add_report_folder(command, pareto_.output);
+  add_frames(command, pareto_);
+  command.add_flag("--quick", quick_,
+                   "A few contenders, 160x120 pixels, two frames: to see that it works");
+  command
+      .add_option("--hardcases", pareto_.hardcases,
+                  "Show the table of this file, which trisect hardcases --json wrote")
+      ->check(not_empty())
+      ->type_name("FILE");
+  add_device(command, pareto_.device);
+}
+
+void CommandLine::add_ablation() {
+  CLI::App& command = subcommand(
+      bench_, "ablation",
+      "Measure what each step from the thesis's way to this program's is worth, one change at a "
+      "time, and write a report with plots");
+  add_models(command, ablation_.models);
+  add_report_folder(command, ablation_.output);
+  add_frames(command, ablation_);
+  add_device(command, ablation_.device);
+}
+
+void CommandLine::add_stability() {
+  CLI::App& command = subcommand(
+      bench_, "stability",
+      "Measure errors over distance, scale, grazing angle, aspect and lean of normals, and write a "
+      "report with a plot");
+  add_report_folder(command, stability_.output);
+  command.add_option("--rays", stability_.rays, "Rays for every value, default 100")
+      ->check(number_from_to(1, 1000000))
+      ->type_name("N");
+}
+
+int CommandLine::run() {
+  if (bench_.got_subcommand("stability")) return bench_stability(stability_);
+  if (quick_) {
+    pareto_.width = 160;
+    pareto_.height = 120;
+    pareto_.runs = 2;
+    pareto_.ranks = {6, 10, 18};
+    pareto_.divisions = {1, 4, 16};
+    pareto_.finest_error = 0.0;
+  }
+  // What all of them have.
+  const auto apply = [&](MeasuredModels& options) {
+    if (text_.size) parse_size("--size", *text_.size, options.width, options.height);
+    if (text_.surface) options.surfaces = {surface_of(*text_.surface)};
+    if (text_.runs) options.runs = *text_.runs;
+  };
+  if (bench_.got_subcommand("pareto")) {
+    apply(pareto_);
+    return bench_pareto(pareto_);
+  }
+  if (bench_.got_subcommand("ablation")) {
+    apply(ablation_);
+    return bench_ablation(ablation_);
+  }
+  apply(speed_);
+  return bench_speed(speed_);
+}
+
+}  // namespace trisect::bench

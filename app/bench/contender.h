@@ -1,0 +1,68 @@
+// A way to make a scene's frame, for commands that measure several of them.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "app/bake.h"
+#include "app/bench/tessellation.h"
+#include "app/frame.h"
+#include "app/kernel_choice.h"
+#include "app/shared.h"
+#include "vk/device.h"
+
+namespace trisect::bench {
+
+class Contender {
+ public:
+  Contender() = default;
+  virtual ~Contender() = default;
+  Contender(const Contender&) = delete;
+  Contender& operator=(const Contender&) = delete;
+  Contender(Contender&&) = delete;
+  Contender& operator=(Contender&&) = delete;
+
+  // Colours only. Returns milliseconds: on a Vulkan device by its clock, else by the host's.
+  virtual double render(Frame& frame) = 0;
+
+  // The same with AOVs and, if the contender counts it, its work. Not to be timed.
+  virtual void inspect(Frame& frame) = 0;
+
+  // What its scene takes, image aside.
+  [[nodiscard]] virtual std::size_t bytes() const = 0;
+};
+
+// All of them keep references to the scene and the device.
+
+// Writes an image and nothing else: no frame is faster.
+std::unique_ptr<Contender> image_only(const gpu::Device& device, const TraceParams& params);
+
+// This program's kernels for a scene and an image size, made when they are needed. What they write
+// and count is not the choice's to say.
+class Kernels;
+std::shared_ptr<Kernels> kernels_for(const gpu::Device& device, const BakedScene& scene,
+                                     const KernelChoice& choice);
+
+// They may serve several contenders, of parameters of the same image size.
+std::unique_ptr<Contender> on_vulkan(std::shared_ptr<Kernels> kernels, const TraceParams& params);
+
+// How Embree's rays go.
+enum class EmbreeRays {
+  packets,  // rtcIntersect16, coherent, of 4 x 4 pixels
+  single,   // rtcIntersect1
+};
+
+constexpr const char* embree_name(EmbreeRays rays) {
+  return rays == EmbreeRays::packets ? "Embree, packets of 16" : "Embree, single rays";
+}
+
+// Embree on flat triangles, on all cores, shaded as the other contenders are. Throws InputError if
+// there is not enough memory.
+std::unique_ptr<Contender> on_embree(const BakedScene& scene, const Tessellation& tessellation,
+                                     const TraceParams& params, EmbreeRays rays);
+
+// OpenGL's tessellation shaders and rasteriser. An OpenGL context must be current, and stay so.
+std::unique_ptr<Contender> on_opengl(const BakedScene& scene, const TraceParams& params,
+                                     uint32_t level);
+
+}  // namespace trisect::bench

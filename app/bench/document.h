@@ -1,0 +1,39 @@
+// A report as blocks, and these as Markdown or as a page of HTML that needs no other file.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace trisect::bench {
+
+struct Heading {
+  int level;  // 1 to 6
+  std::string text;
+};
+struct Paragraph {
+  std::string text;
+};
+struct Items {
+  std::vector<std::string> texts;
+};
+struct Table {
+  std::vector<std::vector<std::string>> rows;  // the first one the header
+};
+struct Picture {
+  std::string file;  // .svg or .png, from the report's folder
+  std::string text;  // what it shows
+};
+using Block = std::variant<Heading, Paragraph, Items, Table, Picture>;
+
+std::string markdown_of(const std::vector<Block>& blocks);
+
+// Pictures are read from `folder`. Throws InputError if one cannot be.
+std::string html_of(const std::string& title, const std::vector<Block>& blocks,
+                    const std::filesystem::path& folder);
+
+// RFC 4648, with padding.
+std::string base64_of(const std::string& bytes);
+
+}  // namespace trisect::bench

@@ -1,0 +1,102 @@
+#include "app/bench/frame_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "app/accuracy.h"
+#include "app/frame_comparison.h"
+
+namespace trisect::bench {
+namespace {
+
+using glm::dvec2;
+using glm::dvec3;
+
+// Where the frame is hit and one of the four pixels beside is not.
+std::vector<dvec2> outline_of(const Frame& frame) {
+  const auto hit = [&](uint32_t x, uint32_t y) {
+    return frame.aovs[std::size_t{y} * frame.width + x].triangle != NO_TRIANGLE;
+  };
+  std::vector<dvec2> outline;
+  for (uint32_t y = 0; y < frame.height; ++y) {
+    for (uint32_t x = 0; x < frame.width; ++x) {
+      if (!hit(x, y)) continue;
+      const bool inside = (x == 0 || hit(x - 1, y)) && (x + 1 == frame.width || hit(x + 1, y)) &&
+                          (y == 0 || hit(x, y - 1)) && (y + 1 == frame.height || hit(x, y + 1));
+      if (!inside) outline.emplace_back(x, y);
+    }
+  }
+  return outline;
+}
+
+void compare_outlines(const Frame& frame, const Frame& shown, FrameErrors& errors) {
+  const std::vector<dvec2> outline = outline_of(frame);
+  const std::vector<dvec2> truth = outline_of(shown);
+  if (outline.empty() || truth.empty()) return;
+  double sum = 0.0;
+  for (const dvec2& point : outline) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const dvec2& other : truth) {
+      const dvec2 apart = other - point;
+      nearest = std::min(nearest, glm::dot(apart, apart));
+    }
+    const double distance = std::sqrt(nearest);
+    sum += distance;
+    errors.outline_max = std::max(errors.outline_max, distance);
+  }
+  errors.outline_mean = sum / static_cast<double>(outline.size());
+}
+
+}  // namespace
+
+FrameErrors errors_of(const Frame& frame, const OracleFrame& truth, const Frame& shown,
+                      const BakedScene& scene, const TraceParams& params) {
+  FrameErrors errors;
+  std::vector<double> off;
+  std::vector<double> ulp;
+  std::vector<double> degrees;
+  double squares = 0.0;
+  std::size_t seen = 0;
+  for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+    const OracleAnswer& answer = truth.pixels[i];
+    const PixelAovs& aov = frame.aovs[i];
+    if (!answer.decidable) {
+      ++errors.undecidable;
+      continue;
+    }
+    const bool nan = has_nan(frame.colors[i], aov);
+    if (nan) ++errors.nans;
+    const bool hit = aov.triangle != NO_TRIANGLE;
+    if (!hit && !answer.hit) continue;
+    ++seen;
+    if (hit != answer.hit || nan) {
+      errors.wrong += hit && !answer.hit ? 1 : 0;
+      errors.missed += !hit && answer.hit ? 1 : 0;
+      squares += 1.0;
+      continue;
+    }
+    const auto x = static_cast<uint32_t>(i % truth.width);
+    const auto y = static_cast<uint32_t>(i / truth.width);
+    const PixelError error = pixel_error(params, x, y, answer, aov);
+    off.push_back(error.off_surface / scene.radius);
+    ulp.push_back(error.depth_ulp);
+    degrees.push_back(degrees_between(dvec3(aov.geometric_u), answer.root.normal));
+    const double counted = std::min(off.back(), 1.0);
+    squares += counted * counted;
+  }
+  errors.off = quantiles_of(std::move(off));
+  errors.depth_ulp = quantiles_of(std::move(ulp));
+  errors.normal_degrees = quantiles_of(std::move(degrees));
+  errors.rms = seen == 0 ? 0.0 : std::sqrt(squares / static_cast<double>(seen));
+  compare_outlines(frame, shown, errors);
+  const FrameComparison colors = compare(frame, shown);
+  errors.color_rmse = colors.color_rmse;
+  errors.psnr = colors.psnr;
+  return errors;
+}
+
+}  // namespace trisect::bench

@@ -1,0 +1,19 @@
+// The table of the hard cases, for a report.
+#pragma once
+
+#include <string>
+
+#include "app/bench/document.h"
+
+namespace trisect::bench {
+
+struct HardCaseTable {
+  std::string device;  // and its driver
+  Table table;
+};
+
+// Of what `trisect hardcases --json` wrote into the file. Throws InputError, naming it, if that
+// cannot be read.
+HardCaseTable read_hard_cases(const std::string& file);
+
+}  // namespace trisect::bench

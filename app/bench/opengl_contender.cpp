@@ -1,0 +1,36 @@
+#include <optional>
+
+#include "app/bench/contender.h"
+#include "app/opengl/rasterizer.h"
+
+namespace trisect::bench {
+namespace {
+
+class OnOpengl : public Contender {
+ public:
+  OnOpengl(const BakedScene& scene, const TraceParams& params, uint32_t level)
+      : scene_(scene), params_(params), level_(level), colors_(scene, params, level, false) {}
+
+  double render(Frame& frame) override { return colors_.render(frame); }
+
+  void inspect(Frame& frame) override {
+    opengl::Rasterizer(scene_, params_, level_, true).render(frame);
+  }
+
+  [[nodiscard]] std::size_t bytes() const override { return colors_.bytes(); }
+
+ private:
+  const BakedScene& scene_;
+  TraceParams params_;
+  uint32_t level_;
+  opengl::Rasterizer colors_;
+};
+
+}  // namespace
+
+std::unique_ptr<Contender> on_opengl(const BakedScene& scene, const TraceParams& params,
+                                     uint32_t level) {
+  return std::make_unique<OnOpengl>(scene, params, level);
+}
+
+}  // namespace trisect::bench

@@ -1,0 +1,70 @@
+#include "app/bench/pareto.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <utility>
+
+#include "app/bench/field.h"
+#include "app/cage.h"
+#include "app/progress.h"
+
+namespace trisect::bench {
+
+Scene measure_scene(const gpu::Device& device, const ParetoOptions& options,
+                    const std::string& model, uint surface) {
+  const Subject subject(model, surface, {options.width, options.height});
+  const View& height = subject.height;
+  const View& normal = subject.normal;
+  Scene result;
+  result.model = subject.model;
+  result.surface = surface;
+  result.patches = subject.mesh.triangles.size();
+  const BakedScene flat = bake_with_cages(subject.mesh, {SURFACE_FLAT, 0.65, SHELL_NORMAL});
+
+  Field field;
+  for (const auto& [family, view] :
+       {std::pair{kThesisHeight, &height}, std::pair{"thesis, normal shell", &normal}}) {
+    const auto kernels =
+        kernels_for(device, view->scene, {.solver = SOLVER_BISECT, .accel = Accel::list});
+    for (const uint32_t rank : options.ranks) {
+      field.add(family, fmt::format("Rank {}", rank), *view,
+                on_vulkan(kernels,
+                          params_of(subject.mesh, view->scene, subject.size, SOLVER_BISECT, rank)));
+    }
+  }
+  for (const auto& [family, accel] :
+       {std::pair{kRobustTiles, Accel::tiles}, std::pair{"robust, bvh", Accel::bvh},
+        std::pair{"robust, list", Accel::list}}) {
+    field.add(family, "", normal,
+              on_vulkan(kernels_for(device, accel == Accel::bvh ? subject.with_tree : normal.scene,
+                                    {.solver = SOLVER_ROBUST, .accel = accel}),
+                        normal.params));
+  }
+  const TraceParams flat_params = params_of(subject.mesh, flat, subject.size, SOLVER_ROBUST, 10);
+  field.add("flat triangles, tiles", "", normal,
+            on_vulkan(kernels_for(device, flat, {.solver = SOLVER_ROBUST, .accel = Accel::tiles}),
+                      flat_params));
+  std::vector<uint32_t> divisions = options.divisions;
+  if (options.finest_error > 0.0) {
+    const BusyLine busy("cutting the surface for Embree");
+    divisions.push_back(affordable_divisions_for(normal.scene, options.finest_error));
+  }
+  for (const uint32_t n : divisions) {
+    const Tessellation cut = tessellate(normal.scene, n);
+    for (const EmbreeRays rays : {EmbreeRays::packets, EmbreeRays::single}) {
+      field.add(embree_name(rays), fmt::format("n = {}", n), normal,
+                on_embree(normal.scene, cut, normal.params, rays));
+    }
+    // The most that OpenGL promises.
+    if (n > 64) continue;
+    field.add(kRasterizer, fmt::format("level {}", n), normal,
+              on_opengl(normal.scene, normal.params, n));
+  }
+  result.measurements = field.measure(result.model, options.runs);
+  result.truth = height.shown;
+  field.inspect(kThesisHeight, "Rank 10", result.thesis);
+  return result;
+}
+
+}  // namespace trisect::bench

@@ -1,0 +1,35 @@
+// Time against error, of every way to draw a model.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/bench/field.h"
+#include "app/frame.h"
+#include "app/options.h"
+#include "vk/device.h"
+
+namespace trisect::bench {
+
+// One model with one surface.
+struct Scene {
+  std::string model;  // its short name
+  uint surface = SURFACE_PHONG;
+  std::size_t patches = 0;
+  std::vector<Measurement> measurements;
+  // For pictures: what the oracle sees of the thesis's surface, and the thesis's way at Rank 10.
+  Frame truth;
+  Frame thesis;
+};
+
+constexpr const char* kRobustTiles = "robust, tiles";
+constexpr const char* kThesisHeight = "thesis, height shell";
+constexpr const char* kRasterizer = "OpenGL tessellation";
+
+// Measures all contenders in turns. Throws what Vulkan's and OpenGL's devices throw.
+Scene measure_scene(const gpu::Device& device, const ParetoOptions& options,
+                    const std::string& model, uint surface);
+
+}  // namespace trisect::bench

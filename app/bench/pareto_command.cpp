@@ -1,0 +1,127 @@
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <ctime>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/atomic_file.h"
+#include "app/bench/document.h"
+#include "app/bench/gnuplot.h"
+#include "app/bench/hard_case_table.h"
+#include "app/bench/pareto.h"
+#include "app/bench/pareto_report.h"
+#include "app/bench/report_files.h"
+#include "app/commands.h"
+#include "app/error.h"
+#include "app/frame_comparison.h"
+#include "app/image_file.h"
+#include "app/json_text.h"
+#include "app/mesh_builder.h"
+#include "app/obj_file.h"
+#include "app/opengl/context.h"
+#include "app/pipeline_store.h"
+
+namespace trisect {
+namespace {
+
+using bench::Block;
+
+std::vector<std::string> provenance(const gpu::Device& device, const opengl::Context& context,
+                                    const ParetoOptions& options) {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  return {fmt::format("Vulkan: {}, {}", device.report().name, device.report().driver),
+          fmt::format("OpenGL: {}, {}", context.device(), context.driver()),
+          fmt::format("CPU: {} threads", std::thread::hardware_concurrency()),
+          fmt::format("trisect {}, compiled by {}", TRISECT_VERSION, TRISECT_COMPILER),
+          fmt::format("{}x{} pixels, {} frames each after a warm-up, in turns, {:%Y-%m-%d}",
+                      options.width, options.height, options.runs, fmt::gmtime(now))};
+}
+
+std::vector<Block> report_of(const std::vector<bench::Scene>& scenes,
+                             const std::vector<std::string>& facts,
+                             const std::optional<bench::HardCaseTable>& hard) {
+  std::vector<Block> blocks;
+  blocks.emplace_back(bench::Heading{1, "Speed against error"});
+  blocks.emplace_back(bench::Items{facts});
+  blocks.emplace_back(bench::Paragraph{
+      "Every contender draws the same pixels with the same shading. error: the root of the mean "
+      "square of the distance off the true surface over the scene's radius, over all pixels that "
+      "it or the oracle hits; a pixel that only one of them hits counts as off by the radius. The "
+      "oracle is an independent search in double precision; pixels that it cannot decide are left "
+      "out. The height shell's surface is judged by its own truth. off: that distance where both "
+      "hit. normal: degrees between geometric normals (flat triangles give the surface's own at "
+      "the point that they stand for). outline: from each pixel of the frame's outline to the "
+      "true one, in pixels, the mean. RMSE and PSNR: of the colours, in steps of 8 bits and in "
+      "decibels. KB: the scene without images. front: nothing is both faster and more exact."});
+  for (const bench::Scene& scene : scenes) {
+    const std::string name = bench::name_of(scene);
+    blocks.emplace_back(bench::Heading{2, fmt::format("{}, {} ({} patches)", scene.model,
+                                                      surface_name(scene.surface), scene.patches)});
+    blocks.emplace_back(bench::Picture{name + ".svg", "Milliseconds over error, " + name});
+    blocks.emplace_back(bench::Items{bench::findings_of(scene)});
+    blocks.emplace_back(bench::table_of(scene));
+    blocks.emplace_back(bench::Paragraph{
+        "The truth in the height shell, the thesis's bisection at Rank 10, their difference and "
+        "where they differ:"});
+    blocks.emplace_back(bench::Picture{name + "-thesis.png", "Four pictures, " + name});
+  }
+  if (hard) {
+    blocks.emplace_back(bench::Heading{2, "Hard cases"});
+    blocks.emplace_back(bench::Paragraph{
+        "`trisect hardcases` on " + hard->device +
+        ". ulp: depth error across the surface in units of 2^-23 of the scene's radius (in images "
+        "of the eye's distance). The robust solver must pass in the normal shell; the height "
+        "shell's rows and the thesis's show what is lost there."});
+    blocks.emplace_back(hard->table);
+  }
+  return blocks;
+}
+
+}  // namespace
+
+int bench_pareto(const ParetoOptions& options) {
+  bench::expect_gnuplot();
+  // What is wrong with a model is said before anything is measured.
+  for (const std::string& model : options.models) build_mesh(read_obj(model), model);
+  std::optional<bench::HardCaseTable> hard;
+  if (!options.hardcases.empty()) hard = bench::read_hard_cases(options.hardcases);
+  const gpu::Instance instance(false);
+  const gpu::Device device(instance, options.device);
+  const PipelineStore store(device, cache_folder());
+  const opengl::Context context;
+  const bench::ReportFolder folder(options.output);
+  std::vector<bench::Scene> scenes;
+  for (const std::string& model : options.models) {
+    for (const uint surface : options.surfaces) {
+      scenes.push_back(bench::measure_scene(device, options, model, surface));
+      const bench::Scene& scene = scenes.back();
+      fmt::print("{}, {}\n", scene.model, surface_name(surface));
+      for (const std::string& finding : bench::findings_of(scene)) fmt::print("  {}\n", finding);
+      std::fflush(stdout);
+    }
+  }
+  const std::vector<std::string> facts = provenance(device, context, options);
+  for (const bench::Scene& scene : scenes) {
+    const std::string name = bench::name_of(scene);
+    folder.plot(name, [&](const std::string& terminal, const std::string& file) {
+      return bench::plot_script(scene, terminal, file);
+    });
+    AtomicFile picture(folder.path() / (name + "-thesis.png"));
+    write_png(comparison_picture(scene.truth, scene.thesis), picture);
+    picture.commit();
+  }
+  folder.write("report.csv", bench::csv_of(scenes));
+  folder.write("report.json", json_text({{"facts", facts}, {"scenes", bench::json_of(scenes)}}));
+  const std::vector<Block> report = report_of(scenes, facts, hard);
+  folder.write("report.md", bench::markdown_of(report));
+  folder.write("report.html", bench::html_of("Speed against error", report, folder.path()));
+  fmt::print("{}\n", (folder.path() / "report.md").string());
+  return exit_done;
+}
+
+}  // namespace trisect

@@ -1,0 +1,232 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/atomic_file.h"
+#include "app/bench/contender.h"
+#include "app/bench/sample_check.h"
+#include "app/bvh.h"
+#include "app/cage.h"
+#include "app/commands.h"
+#include "app/error.h"
+#include "app/interrupt.h"
+#include "app/json_text.h"
+#include "app/mesh_builder.h"
+#include "app/obj_file.h"
+#include "app/pipeline_store.h"
+#include "app/progress.h"
+#include "app/statistics.h"
+#include "app/stopwatch.h"
+#include "app/trace_settings.h"
+
+namespace trisect {
+namespace {
+
+using bench::Contender;
+using bench::EmbreeRays;
+using bench::SampleCheck;
+
+// Between the pixels that the oracle is asked about.
+constexpr uint32_t kCheckStep = 20;
+
+struct Row {
+  std::string name;
+  std::unique_ptr<Contender> contender;
+  const SampleCheck* check;     // nothing if its picture means nothing
+  std::optional<double> build;  // milliseconds for what its rays go by
+  std::size_t wrong = 0;
+  std::vector<double> times;
+};
+
+template <typename Make>
+auto timed(double& ms, Make&& make) {
+  const Stopwatch watch;
+  auto made = make();
+  ms += watch.milliseconds();
+  return made;
+}
+
+SampleCheck checked(const std::string& model, const BakedScene& scene, const TraceParams& params) {
+  Progress progress(fmt::format("oracle, {}", model),
+                    (params.height + kCheckStep - 1) / kCheckStep);
+  return {scene, params, kCheckStep, [&](uint32_t rows) { progress.show(rows); }};
+}
+
+// All contenders on one model with one surface.
+class Race {
+ public:
+  Race(const gpu::Device& device, const BenchOptions& options, const std::string& model,
+       uint surface)
+      : options_(options), mesh_(build_mesh(read_obj(model), model).mesh) {
+    const SurfaceChoice normal{surface, 0.65, SHELL_NORMAL};
+    double bake_ms = 0.0;
+    scene_ = timed(bake_ms, [&] { return bake_with_cages(mesh_, normal); });
+    double bvh_ms = bake_ms;
+    scene_.bvh = timed(bvh_ms, [&] { return build_bvh(scene_); });
+    list_scene_ = scene_;
+    list_scene_.bvh.clear();
+    double thesis_ms = 0.0;
+    thesis_scene_ = timed(thesis_ms, [&] { return bake(mesh_, {surface, 0.65, SHELL_HEIGHT}); });
+    params_ = params_of(scene_, SOLVER_ROBUST);
+    thesis_params_ = params_of(thesis_scene_, SOLVER_BISECT);
+    check_.emplace(checked(model, scene_, params_));
+    thesis_check_.emplace(checked(model, thesis_scene_, thesis_params_));
+
+    add("image only", bench::image_only(device, params_), nullptr);
+    add("thesis (list, bisect, Rank 10)",
+        bench::on_vulkan(bench::kernels_for(device, thesis_scene_,
+                                            {.solver = SOLVER_BISECT, .accel = Accel::list}),
+                         thesis_params_),
+        &*thesis_check_, thesis_ms);
+    add_robust(device, "list, robust", list_scene_, Accel::list, bake_ms);
+    add_robust(device, "tiles, robust", list_scene_, Accel::tiles, bake_ms);
+    add_robust(device, "bvh, robust", scene_, Accel::bvh, bvh_ms);
+    add_embree();
+  }
+
+  void run() {
+    Frame frame;
+    for (Row& row : rows_) {
+      row.contender->render(frame);
+      if (row.check != nullptr) row.wrong = row.check->count_wrong(frame);
+    }
+    // Side by side: what else the machine does meets all alike.
+    for (uint32_t run = 0; run < options_.runs; ++run) {
+      for (Row& row : rows_) {
+        row.times.push_back(row.contender->render(frame));
+        stop_if_interrupted();
+      }
+    }
+  }
+
+  [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
+  [[nodiscard]] std::size_t patches() const { return scene_.triangles.size(); }
+  [[nodiscard]] std::size_t flat_triangles() const { return flat_triangles_; }
+  [[nodiscard]] double flat_error() const { return flat_error_; }
+
+ private:
+  [[nodiscard]] TraceParams params_of(const BakedScene& scene, uint solver) const {
+    TraceSettings settings = framed_settings(mesh_, scene, options_.width, options_.height);
+    settings.solver = solver;
+    return make_params(scene, settings);
+  }
+
+  void add(const std::string& name, std::unique_ptr<Contender> contender, const SampleCheck* check,
+           std::optional<double> build = std::nullopt) {
+    rows_.push_back({name, std::move(contender), check, build, 0, {}});
+  }
+
+  void add_robust(const gpu::Device& device, const std::string& name, const BakedScene& scene,
+                  Accel accel, double build) {
+    add(name,
+        bench::on_vulkan(
+            bench::kernels_for(device, scene, {.solver = SOLVER_ROBUST, .accel = accel}), params_),
+        &*check_, build);
+  }
+
+  void add_embree() {
+    const BusyLine busy("cutting the surface for Embree");
+    const uint32_t n = bench::affordable_divisions_for(scene_, options_.error);
+    flat_error_ = bench::tessellation_error(scene_, n);
+    double cut_ms = 0.0;
+    const bench::Tessellation flat = timed(cut_ms, [&] { return bench::tessellate(scene_, n); });
+    flat_triangles_ = flat.triangles.size();
+    for (const EmbreeRays rays : {EmbreeRays::packets, EmbreeRays::single}) {
+      double ms = cut_ms;
+      auto embree = timed(ms, [&] { return bench::on_embree(scene_, flat, params_, rays); });
+      add(bench::embree_name(rays), std::move(embree), &*check_, ms);
+    }
+  }
+
+  const BenchOptions& options_;
+  Mesh mesh_;
+  BakedScene scene_;       // with a tree
+  BakedScene list_scene_;  // without
+  BakedScene thesis_scene_;
+  TraceParams params_{};
+  TraceParams thesis_params_{};
+  std::optional<SampleCheck> check_;
+  std::optional<SampleCheck> thesis_check_;
+  std::vector<Row> rows_;
+  std::size_t flat_triangles_ = 0;
+  double flat_error_ = 0.0;
+};
+
+constexpr const char* kHeader =
+    "| model | surface | contender | ms | least | most | of the thesis | of the image | wrong | of "
+    "| KB | build ms |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+
+void report(const std::string& model, uint surface, const Race& race,
+            nlohmann::ordered_json& json) {
+  const double floor = spread_of(race.rows()[0].times).median;
+  const double thesis = spread_of(race.rows()[1].times).median;
+  for (const Row& row : race.rows()) {
+    const Spread ms = spread_of(row.times);
+    const std::size_t pixels = row.check != nullptr ? row.check->pixels() : 0;
+    const std::size_t bytes = row.contender->bytes();
+    fmt::print(
+        "| {} | {} | {} | {:.1f} | {:.1f} | {:.1f} | {:.3f} | {:.1f} | {} | {} | {} | {} |\n",
+        model_name(model), surface_name(surface), row.name, ms.median, ms.min, ms.max,
+        ms.median / thesis, ms.median / floor,
+        row.check != nullptr ? fmt::to_string(row.wrong) : "",
+        row.check != nullptr ? fmt::to_string(pixels) : "", bytes / 1024,
+        row.build ? fmt::format("{:.0f}", *row.build) : "");
+    nlohmann::ordered_json one;
+    one["model"] = model;
+    one["surface"] = surface_name(surface);
+    one["patches"] = race.patches();
+    one["contender"] = row.name;
+    one["ms"] = json_of(ms);
+    if (row.check != nullptr) {
+      one["checked_pixels"] = pixels;
+      one["wrong_pixels"] = row.wrong;
+    }
+    one["bytes"] = bytes;
+    if (row.build) one["build_ms"] = *row.build;
+    if (row.name.starts_with("Embree")) {
+      one["flat_triangles"] = race.flat_triangles();
+      one["flat_error"] = race.flat_error();
+    }
+    json["rows"].push_back(one);
+  }
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int bench_speed(const BenchOptions& options) {
+  const gpu::Instance instance(false);
+  const gpu::Device device(instance, options.device);
+  const PipelineStore store(device, cache_folder());
+  std::optional<AtomicFile> file;
+  if (!options.json.empty()) file.emplace(options.json);
+  fmt::print("device {}, driver {}, {}x{}, medians of {} runs\n\n{}", device.report().name,
+             device.report().driver, options.width, options.height, options.runs, kHeader);
+  std::fflush(stdout);
+  nlohmann::ordered_json json;
+  json["device"] = device.report().name;
+  json["driver"] = device.report().driver;
+  json["width"] = options.width;
+  json["height"] = options.height;
+  json["runs"] = options.runs;
+  json["rows"] = nlohmann::ordered_json::array();
+  for (const std::string& model : options.models) {
+    for (const uint surface : options.surfaces) {
+      Race race(device, options, model, surface);
+      race.run();
+      report(model, surface, race, json);
+    }
+  }
+  if (file) {
+    file->write(json_text(json));
+    file->commit();
+  }
+  return exit_done;
+}
+
+}  // namespace trisect

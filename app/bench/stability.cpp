@@ -1,0 +1,167 @@
+#include "app/bench/stability.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/glm.hpp>
+#include <random>
+#include <utility>
+
+#include "app/bake.h"
+#include "app/cage.h"
+#include "app/cpu_tracer.h"
+#include "app/hard_judge.h"
+#include "app/hard_scenes.h"
+#include "app/interrupt.h"
+#include "app/oracle.h"
+#include "app/progress.h"
+#include "app/trace_settings.h"
+
+namespace trisect::bench {
+namespace {
+
+using glm::dvec3;
+
+// How steeply rays meet the surface where that is not varied.
+constexpr double kUsualDegrees = 50.0;
+
+struct Axis {
+  const char* name;
+  const char* what;
+  bool logarithmic;
+  std::vector<double> values;
+  std::function<Mesh(double)> mesh;
+  std::function<double(double)> degrees;  // between the rays and the surface
+};
+
+struct Solver {
+  const char* name;
+  uint solver;
+  uint shell;
+  uint32_t rank;
+};
+
+constexpr Solver kSolvers[] = {{"robust", SOLVER_ROBUST, SHELL_NORMAL, 10},
+                               {"thesis, Rank 10", SOLVER_BISECT, SHELL_HEIGHT, 10},
+                               {"thesis, Rank 30", SOLVER_BISECT, SHELL_HEIGHT, 30}};
+
+// 10^from, ..., 10^to.
+std::vector<double> powers(int from, int to) {
+  std::vector<double> values;
+  for (int e = from; e <= to; ++e) values.push_back(std::pow(10.0, e));
+  return values;
+}
+
+// Stretched along x, normals as a surface's that is stretched so.
+Mesh stretched(Mesh mesh, double factor) {
+  for (dvec3& position : mesh.positions) position.x *= factor;
+  for (dvec3& normal : mesh.normals) {
+    normal = glm::normalize(dvec3(normal.x / factor, normal.y, normal.z));
+  }
+  return mesh;
+}
+
+std::vector<Axis> axes() {
+  const auto sphere = [](double) { return hard::sphere(1); };
+  const auto usual = [](double) { return kUsualDegrees; };
+  return {{"distance", "distance from the origin, radii", true, powers(0, 6),
+           [](double d) { return hard::moved(hard::sphere(1), 1.0, dvec3(0.48, -0.6, 0.64) * d); },
+           usual},
+          {"scale", "scale of the model", true, powers(-6, 6),
+           [](double scale) { return hard::moved(hard::sphere(1), scale, dvec3(0.0)); }, usual},
+          {"grazing",
+           "angle between ray and surface, degrees",
+           true,
+           {90.0, 45.0, 20.0, 10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4},
+           sphere,
+           [](double degrees) { return degrees; }},
+          {"aspect", "patch's length over its width", true, powers(0, 6),
+           [](double aspect) { return stretched(hard::leaning_patch(20.0), aspect); }, usual},
+          {"spread",
+           "lean of the normals, degrees",
+           false,
+           {0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 85.0, 89.0},
+           [](double degrees) { return hard::leaning_patch(degrees); },
+           usual}};
+}
+
+// Rays at any points of the surface, from the side of its normal.
+std::vector<CastRay> rays_at(const BakedScene& scene, double degrees, uint32_t count,
+                             std::mt19937_64& random) {
+  std::vector<CastRay> rays;
+  while (rays.size() < count) {
+    const hard::SurfacePoint point = hard::any_point(scene, random);
+    if (!(glm::length(point.normal) > 0.5)) continue;
+    const double angle = glm::radians(degrees);
+    const dvec3 direction =
+        hard::across(point.normal, random) * std::cos(angle) - point.normal * std::sin(angle);
+    rays.push_back(hard::ray_through(scene, point.position, direction));
+  }
+  return rays;
+}
+
+StabilityPoint measure(const Axis& axis, const Solver& solver, double value, uint32_t count) {
+  const Mesh mesh = axis.mesh(value);
+  const SurfaceChoice choice{SURFACE_PHONG, 0.65, solver.shell};
+  const BakedScene scene =
+      solver.solver == SOLVER_ROBUST ? bake_with_cages(mesh, choice) : bake(mesh, choice);
+  // The same points and directions for all values.
+  std::mt19937_64 random(5);
+  const std::vector<CastRay> rays = rays_at(scene, axis.degrees(value), count, random);
+  TraceSettings settings;
+  settings.solver = solver.solver;
+  settings.rank = solver.rank;
+  const std::vector<CastHit> hits =
+      cast_on_cpu(scene, make_params(scene, settings), solver.solver, rays);
+  const std::vector<OracleAnswer> answers = oracle_answers(Oracle(scene), rays, scene.radius);
+  StabilityPoint point;
+  point.value = value;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const CastHit& hit = hits[i];
+    const OracleAnswer& answer = answers[i];
+    if (!std::isfinite(hit.z) || !std::isfinite(hit.u) || !std::isfinite(hit.v)) ++point.nans;
+    if (!answer.decidable) continue;
+    ++point.decided;
+    const bool met = hit.triangle != NO_TRIANGLE;
+    point.wrong += met && !answer.hit ? 1 : 0;
+    point.missed += !met && answer.hit ? 1 : 0;
+    if (!met && !answer.hit) continue;
+    double off = 1.0;
+    if (met && answer.hit && std::isfinite(hit.z)) {
+      const double depth = std::abs(static_cast<double>(hit.z) - answer.root.t);
+      off = std::min(1.0, depth / scene.radius *
+                              std::abs(glm::dot(answer.root.normal, widened(rays[i]).direction)));
+    }
+    squares += off * off;
+  }
+  point.error = std::sqrt(squares / static_cast<double>(point.decided));
+  return point;
+}
+
+}  // namespace
+
+std::vector<StabilityAxis> measure_stability(uint32_t rays) {
+  std::vector<StabilityAxis> measured;
+  const std::vector<Axis> all = axes();
+  uint64_t points = 0;
+  for (const Axis& axis : all) points += axis.values.size() * std::size(kSolvers);
+  Progress progress("measuring stability", points);
+  uint64_t done = 0;
+  for (const Axis& axis : all) {
+    StabilityAxis result{axis.name, axis.what, axis.logarithmic, {}};
+    for (const Solver& solver : kSolvers) {
+      StabilityCurve curve{solver.name, {}};
+      for (const double value : axis.values) {
+        curve.points.push_back(measure(axis, solver, value, rays));
+        stop_if_interrupted();
+        progress.show(++done);
+      }
+      result.curves.push_back(std::move(curve));
+    }
+    measured.push_back(std::move(result));
+  }
+  return measured;
+}
+
+}  // namespace trisect::bench
