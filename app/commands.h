@@ -36,6 +36,9 @@ Tolerance tolerance_between(Backend a, Backend b, GlPath gl_path);
 // Compares two image files; returns exit_different if they are farther apart than asked for.
 int compare_images(const CompareOptions& options);
 
+// Shows a model in a window until that is closed; returns an exit code.
+int view_model(const ViewOptions& options);
+
 // Lists the Vulkan devices; returns an exit code.
 int list_devices();
 

@@ -11,6 +11,8 @@ namespace {
 #include "cast_rays.spv.h"
 #include "fill_sky.spv.h"
 #include "floor.spv.h"
+#include "screen_frag.spv.h"
+#include "screen_vert.spv.h"
 #include "search_packets.spv.h"
 #include "search_packets_at.spv.h"
 #include "trace_bvh.spv.h"
@@ -46,6 +48,8 @@ const std::span<const uint32_t> kSearchPacketsAtSpirv(search_packets_at_spirv);
 const std::span<const uint32_t> kTraceBvhSpirv(trace_bvh_spirv);
 const std::span<const uint32_t> kTraceBvhAtSpirv(trace_bvh_at_spirv);
 const std::span<const uint32_t> kFloorSpirv(floor_spirv);
+const std::span<const uint32_t> kScreenVertSpirv(screen_vert_spirv);
+const std::span<const uint32_t> kScreenFragSpirv(screen_frag_spirv);
 const std::span<const uint32_t> kCastRaysSpirv(cast_rays_spirv);
 const std::span<const uint32_t> kCastByBvhSpirv(cast_by_bvh_spirv);
 
@@ -63,6 +67,12 @@ std::span<const uint32_t> newest(const KernelCode* code, const char* name,
   if (code == nullptr) return built_in;
   const auto found = code->find(name);
   return found == code->end() ? built_in : found->second;
+}
+
+gpu::KernelInterface screen_interface() {
+  return {{{BINDING_COLOR, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+           {BINDING_AOVS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}},
+          sizeof(ScreenPush)};
 }
 
 gpu::KernelInterface frame_interface() {

@@ -24,6 +24,9 @@ extern const std::span<const uint32_t> kTracePacketsAtSpirv;
 extern const std::span<const uint32_t> kSearchPacketsAtSpirv;
 extern const std::span<const uint32_t> kTraceBvhAtSpirv;
 extern const std::span<const uint32_t> kFloorSpirv;
+// Of the window that shows a frame.
+extern const std::span<const uint32_t> kScreenVertSpirv;
+extern const std::span<const uint32_t> kScreenFragSpirv;
 extern const std::span<const uint32_t> kCastRaysSpirv;
 extern const std::span<const uint32_t> kCastByBvhSpirv;
 
@@ -44,6 +47,8 @@ extern const char* const kSkyFrag;
 // Of the kernels that make a frame: they share a descriptor set.
 gpu::KernelInterface frame_interface();
 gpu::KernelInterface cast_rays_interface();
+// Of the fragment shader that shows a frame in a window.
+gpu::KernelInterface screen_interface();
 // Of the kernel that writes an image and nothing else.
 gpu::KernelInterface floor_interface();
 

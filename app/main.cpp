@@ -15,6 +15,7 @@
 #include "app/error.h"
 #include "app/interrupt.h"
 #include "app/scene_options.h"
+#include "app/view/command_line.h"
 #include "vk/result.h"
 
 namespace trisect {
@@ -169,6 +170,7 @@ int run(int argc, char** argv) {
   AccuracyText accuracy_text;
   add_accuracy(app, accuracy_options, accuracy_text);
   bench::CommandLine bench(app);
+  view::CommandLine view(app);
   HardcasesOptions hardcases_options;
   std::string hardcases_backend;
   add_hardcases(app, hardcases_options, hardcases_backend);
@@ -196,6 +198,7 @@ int run(int argc, char** argv) {
   if (app.got_subcommand("devices")) return list_devices();
   if (app.got_subcommand("accuracy")) return run_accuracy(accuracy_options, accuracy_text);
   if (app.got_subcommand("bench")) return bench.run();
+  if (app.got_subcommand("view")) return view.run();
   if (app.got_subcommand("crosscheck")) return run_crosscheck(crosscheck_options, crosscheck_text);
   if (app.got_subcommand("compare")) return run_compare(compare_options, thresholds);
   if (app.got_subcommand("hardcases")) {

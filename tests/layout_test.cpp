@@ -192,6 +192,29 @@ TEST(Layout, OutputsAndPushConstants) {
                                    {"rows", offsetof(TilePush, rows)}}));
 }
 
+TEST(Layout, ScreenPushIsTheFragmentShaders) {
+  const Compiler compiler = reflect(kScreenFragSpirv);
+  const auto resources = compiler.get_shader_resources();
+  ASSERT_EQ(resources.push_constant_buffers.size(), 1U);
+  const Held push = held_by(compiler, resources.push_constant_buffers[0]);
+  EXPECT_EQ(push.stride, sizeof(ScreenPush));
+  EXPECT_EQ(push.offsets, (Offsets{{"width", offsetof(ScreenPush, width)},
+                                   {"height", offsetof(ScreenPush, height)},
+                                   {"frame_width", offsetof(ScreenPush, frame_width)},
+                                   {"frame_height", offsetof(ScreenPush, frame_height)},
+                                   {"shown", offsetof(ScreenPush, shown)},
+                                   {"low", offsetof(ScreenPush, low)},
+                                   {"high", offsetof(ScreenPush, high)},
+                                   {"padding", offsetof(ScreenPush, padding)}}));
+  const gpu::KernelInterface interface = screen_interface();
+  EXPECT_EQ(interface.push_size, sizeof(ScreenPush));
+  std::set<uint32_t> bindings;
+  for (const auto& buffer : resources.storage_buffers) {
+    bindings.insert(compiler.get_decoration(buffer.id, spv::DecorationBinding));
+  }
+  EXPECT_EQ(bindings, (std::set<uint32_t>{BINDING_COLOR, BINDING_AOVS}));
+}
+
 TEST(Layout, InterfaceIsTheKernels) {
   std::map<uint32_t, VkDescriptorType> in_kernels;
   for (const auto& spirv :

@@ -1,0 +1,87 @@
+#include "app/view/error_map.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <utility>
+
+#include "app/accuracy.h"
+#include "app/oracle_tracer.h"
+
+namespace trisect::view {
+namespace {
+
+struct Stopped {};
+
+float error_at(const BakedScene& scene, const TraceParams& params, uint32_t x, uint32_t y,
+               const OracleAnswer& answer, const PixelAovs& aov) {
+  if (!answer.decidable) return ERROR_UNDECIDED;
+  const bool hit = aov.triangle != NO_TRIANGLE;
+  if (hit != answer.hit) return ERROR_WRONG;
+  if (!hit) return ERROR_NOTHING;
+  return static_cast<float>(pixel_error(params, x, y, answer, aov).off_surface / scene.radius);
+}
+
+ErrorMap map_of(const BakedScene& scene, const TraceParams& params, const Frame& frame,
+                const OracleFrame& truth) {
+  ErrorMap map;
+  map.width = frame.width;
+  map.height = frame.height;
+  for (uint32_t y = 0; y < frame.height; ++y) {
+    for (uint32_t x = 0; x < frame.width; ++x) {
+      const std::size_t i = std::size_t{y} * frame.width + x;
+      map.errors.emplace_back(error_at(scene, params, x, y, truth.pixels[i], frame.aovs[i]), 0.0F,
+                              0.0F, 0.0F);
+    }
+  }
+  const Accuracy accuracy = accuracy_of(frame, truth, scene, params);
+  map.said = fmt::format(
+      "{}x{}: {} wrong, {} missed of {} hits; off by {:.1e} at 99 of 100 pixels, {:.1e} at most",
+      map.width, map.height, accuracy.wrong_hits, accuracy.missed, accuracy.hits,
+      accuracy.off_surface.p99, accuracy.off_surface.max);
+  return map;
+}
+
+}  // namespace
+
+void ErrorMeasurement::start(std::shared_ptr<const BakedScene> scene, const TraceParams& params,
+                             Frame frame) {
+  stop();
+  stopped_ = false;
+  rows_done_ = 0;
+  rows_ = params.height;
+  running_ = std::async(std::launch::async,
+                        [this, scene = std::move(scene), params,
+                         frame = std::move(frame)]() -> std::optional<ErrorMap> {
+                          try {
+                            const OracleFrame truth =
+                                trace_with_oracle(*scene, params, [this](uint32_t rows) {
+                                  if (stopped_) throw Stopped();
+                                  rows_done_ = rows;
+                                });
+                            return map_of(*scene, params, frame, truth);
+                          } catch (const Stopped&) {
+                            return std::nullopt;
+                          }
+                        });
+}
+
+void ErrorMeasurement::stop() {
+  stopped_ = true;
+  if (running_.valid()) running_.get();
+}
+
+std::optional<float> ErrorMeasurement::progress() const {
+  if (!running_.valid()) return std::nullopt;
+  return static_cast<float>(rows_done_) / static_cast<float>(rows_);
+}
+
+std::optional<ErrorMap> ErrorMeasurement::poll() {
+  if (!running_.valid() ||
+      running_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    return std::nullopt;
+  }
+  return running_.get();
+}
+
+}  // namespace trisect::view

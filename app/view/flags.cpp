@@ -1,0 +1,96 @@
+#include "app/view/flags.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <iterator>
+#include <sstream>
+#include <vector>
+
+#include "app/accel.h"
+#include "app/error.h"
+#include "app/scene_options.h"
+
+namespace trisect::view {
+namespace {
+
+// For CLI11, which reads by way of long double: of one in some ten thousand of the shortest texts
+// the second rounding ends beside the value. 17 digits are too near to it for that.
+std::string number(double value) {
+  std::string text = fmt::format("{}", value);
+  if (static_cast<double>(std::strtold(text.c_str(), nullptr)) == value) return text;
+  return fmt::format("{:.17g}", value);
+}
+
+// For parse_triple, which rounds once.
+std::string triple(const glm::dvec3& value) {
+  return fmt::format("{},{},{}", value.x, value.y, value.z);
+}
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), std::istream_iterator<std::string>()};
+}
+
+// "trisect render", of a program in any folder.
+bool names_command(const std::vector<std::string>& words) {
+  return words.size() >= 2 && words[1] == "render" &&
+         std::filesystem::path(words[0]).filename() == "trisect";
+}
+
+}  // namespace
+
+std::string flags_of(const RenderOptions& options) {
+  std::string text =
+      fmt::format("--size {}x{} --surface {} --alpha {} --shell {} --solver {}", options.width,
+                  options.height, surface_name(options.surface), number(options.alpha),
+                  shell_name(options.shell), solver_name(options.solver));
+  const auto add = [&text](const char* option, const std::string& value) {
+    text += fmt::format(" {} {}", option, value);
+  };
+  if (options.solver == SOLVER_BISECT) add("--rank", std::to_string(options.rank));
+  if (options.accel) add("--accel", accel_name(*options.accel));
+  if (options.eye) add("--eye", triple(*options.eye));
+  if (options.target) add("--target", triple(*options.target));
+  // By their texts, as -0 is not 0 bit for bit.
+  const std::string up = triple(options.up);
+  if (up != triple(RenderOptions{}.up)) add("--up", up);
+  add("--fov", number(options.fov));
+  if (options.light) add("--light", triple(*options.light));
+  if (options.shadows) text += " --shadows";
+  if (options.spp != 1) add("--spp", std::to_string(options.spp));
+  if (options.crease) add("--crease", number(*options.crease));
+  return text;
+}
+
+RenderOptions with_flags(const RenderOptions& base, const std::string& text) {
+  RenderOptions options = base;
+  options.shadows = false;
+  options.spp = 1;
+  options.accel.reset();
+  std::vector<std::string> words = words_of(text);
+  if (names_command(words)) words.erase(words.begin(), words.begin() + 2);
+  CLI::App command;
+  command.set_help_flag();  // it is no option here
+  SceneText scene;
+  add_view(command, options, scene);
+  add_spp(command, options.spp);
+  std::string ignored;
+  command.add_option("MODEL", ignored);
+  command.add_option("-o,--output", ignored);
+  std::reverse(words.begin(), words.end());  // CLI11 takes them from the end
+  try {
+    command.parse(words);
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(error.what());
+  }
+  parse_scene(scene, options);
+  // Whether these go together, whatever the model.
+  chosen_accel(options, Backend::vulkan, 1);
+  return options;
+}
+
+}  // namespace trisect::view

@@ -1,0 +1,47 @@
+#include "app/view/picture.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "app/buffer_limits.h"
+#include "app/options.h"
+
+namespace trisect::view {
+namespace {
+
+// Of the buffers when they are made. They grow with the frames.
+constexpr uint32_t kFirstSide = 64;
+
+}  // namespace
+
+bool Picture::use(const std::shared_ptr<const BakedScene>& scene, const KernelChoice& choice,
+                  const std::shared_ptr<const KernelCode>& code) {
+  if (tracer_ && scene == scene_ && choice == choice_ && code == code_) return false;
+  auto tracer = std::make_unique<VulkanTracer>(device_, *scene, kFirstSide, kFirstSide, choice,
+                                               kNoLimit, code.get());
+  tracer_ = std::move(tracer);
+  scene_ = scene;
+  choice_ = choice;
+  code_ = code;
+  params_.reset();
+  return true;
+}
+
+bool Picture::can_hold(uint32_t width, uint32_t height) const {
+  return std::max(width, height) <= kLargestSide &&
+         rows_in_a_band(device_.report().name, device_.limits().maxStorageBufferRange, width,
+                        height, choice_.writes_aovs()) >= height;
+}
+
+double Picture::trace(const TraceSettings& settings, const std::function<void()>& between_submits) {
+  const TraceParams params = make_params(*scene_, settings);
+  params_.reset();
+  if (!tracer_->holds_at_once(settings.width, settings.height)) {
+    tracer_->resize(settings.width, settings.height);
+  }
+  const double ms = tracer_->trace(params, between_submits);
+  params_ = params;
+  return ms;
+}
+
+}  // namespace trisect::view

@@ -1,0 +1,31 @@
+#include "app/view/saved_picture.h"
+
+#include <utility>
+
+#include "app/accel.h"
+#include "app/atomic_file.h"
+#include "app/image_file.h"
+#include "app/load_scene.h"
+#include "app/supersampling.h"
+#include "app/vulkan_tracer.h"
+
+namespace trisect::view {
+
+void save_picture(const gpu::Device& device, const Mesh& mesh, const BakedScene& scene,
+                  const RenderOptions& options, const std::string& file) {
+  const ImageFormat format = image_format(file);
+  AtomicFile target(file);
+  const TraceParams params = make_params(scene, settings_of(options, mesh, scene));
+  VulkanTracer tracer(device, scene, params.width, params.height,
+                      {.solver = options.solver,
+                       .aovs = format == ImageFormat::exr,
+                       .accel = accel_at_hand(options, scene),
+                       .shadows = options.shadows});
+  Frame frame;
+  tracer.render(params, frame);
+  frame = averaged(std::move(frame), samples_across(options.spp));
+  write_image(frame, format, false, target);
+  target.commit();
+}
+
+}  // namespace trisect::view

@@ -1,0 +1,67 @@
+#include "app/view/scene_loader.h"
+
+#include <chrono>
+#include <exception>
+#include <new>
+#include <utility>
+
+#include "app/bvh.h"
+#include "app/cage.h"
+#include "app/mesh_builder.h"
+#include "app/obj_file.h"
+
+namespace trisect::view {
+namespace {
+
+std::variant<ViewedScene, LoadFailure> load(const SceneRequest& request,
+                                            std::shared_ptr<const Mesh> mesh, std::string said) {
+  try {
+    if (!mesh) {
+      BuiltMesh built = build_mesh(read_obj(request.model), request.model, request.crease);
+      said = describe(built.report);
+      mesh = std::make_shared<const Mesh>(std::move(built.mesh));
+    }
+    BakedScene scene = bake_with_cages(*mesh, request.choice);
+    if (request.tree) scene.bvh = build_bvh(scene);
+    return ViewedScene{request, std::move(mesh),
+                       std::make_shared<const BakedScene>(std::move(scene)), std::move(said)};
+  } catch (const std::bad_alloc&) {
+    return LoadFailure{request, request.model + ": not enough memory for this model."};
+  } catch (const std::exception& error) {
+    return LoadFailure{request, error.what()};
+  }
+}
+
+}  // namespace
+
+void SceneLoader::ask(const SceneRequest& request) {
+  if (asked_ == request) return;
+  asked_ = request;
+  if (running_.valid()) {
+    waiting_ = request;
+    return;
+  }
+  const bool same_mesh =
+      mesh_ && mesh_request_.model == request.model && mesh_request_.crease == request.crease;
+  running_ = std::async(std::launch::async, load, request, same_mesh ? mesh_ : nullptr, said_);
+}
+
+std::optional<SceneLoader::Result> SceneLoader::poll() {
+  if (!running_.valid() ||
+      running_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    return std::nullopt;
+  }
+  Result result = running_.get();
+  if (const auto* loaded = std::get_if<ViewedScene>(&result)) {
+    mesh_ = loaded->mesh;
+    mesh_request_ = loaded->request;
+    said_ = loaded->said;
+  }
+  if (!waiting_) return result;
+  const SceneRequest next = *std::exchange(waiting_, std::nullopt);
+  asked_.reset();
+  ask(next);
+  return std::nullopt;
+}
+
+}  // namespace trisect::view

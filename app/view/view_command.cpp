@@ -1,0 +1,44 @@
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "app/accel.h"
+#include "app/atomic_file.h"
+#include "app/commands.h"
+#include "app/error.h"
+#include "app/image_file.h"
+#include "app/pipeline_store.h"
+#include "app/view/viewer.h"
+
+namespace trisect {
+
+int view_model(const ViewOptions& options) {
+  if (!options.screenshot.empty()) image_format(options.screenshot);
+  // What does not go together, whatever the model, is said before a window opens.
+  chosen_accel(options.render, Backend::vulkan, 1);
+  std::vector<view::ScriptStep> script;
+  if (!options.script.empty()) script = view::read_script(options.script);
+  std::optional<AtomicFile> stats;
+  if (!options.stats.empty()) stats.emplace(options.stats);
+  view::Window window(options.render.width, options.render.height, "trisect");
+  const gpu::Instance instance(options.render.validation, window.vulkan_extensions());
+  {
+    const view::Surface surface(instance, window);
+    const gpu::Device device(instance, options.render.device, surface.get());
+    const PipelineStore store(device, cache_folder());
+    view::Viewer viewer(options, std::move(script), window, instance, device, surface.get());
+    viewer.run();
+    fmt::print("{}", view::to_text(viewer.statistics()));
+    if (stats) {
+      stats->write(view::to_json(viewer.statistics()));
+      stats->commit();
+    }
+  }
+  const std::vector<std::string> messages = instance.log().messages();
+  for (const std::string& message : messages) fmt::print(stderr, "validation: {}\n", message);
+  return messages.empty() ? exit_done : exit_internal;
+}
+
+}  // namespace trisect

@@ -1,0 +1,93 @@
+#version 450
+// Shows a frame in a window, or one of its outputs.
+#extension GL_GOOGLE_include_directive : require
+#include "language.h"
+#include "shared.h"
+
+layout(push_constant) uniform PushBlock { ScreenPush push; };
+layout(std430, binding = BINDING_COLOR) readonly restrict buffer ColorBlock { vec4 colors[]; };
+layout(std430, binding = BINDING_AOVS) readonly restrict buffer AovsBlock { PixelAovs pixels[]; };
+
+// The colours again, in its upper left corner, if the frame is no larger than the window.
+layout(binding = BINDING_FRAME) uniform sampler2D texture_of_frame;
+
+layout(location = 0) out vec4 shown;
+
+uint index_of(uvec2 pixel) {
+  return min(pixel.y, push.frame_height - 1u) * push.frame_width + min(pixel.x, push.frame_width - 1u);
+}
+
+// The transfer function of sRGB, IEC 61966-2-1.
+vec3 linear_from_srgb(vec3 x) {
+  return mix(x / 12.92, pow((x + 0.055) / 1.055, vec3(2.4)), greaterThan(x, vec3(0.04045)));
+}
+vec3 srgb_from_linear(vec3 x) {
+  return mix(x * 12.92, 1.055 * pow(x, vec3(1.0 / 2.4)) - 0.055, greaterThan(x, vec3(0.0031308)));
+}
+
+// Dark blue, blue, green, yellow, red.
+vec3 heat(float t) {
+  vec3 low = mix(vec3(0.05, 0.05, 0.3), vec3(0.1, 0.45, 0.9), clamp(4.0 * t, 0.0, 1.0));
+  vec3 middle = mix(low, vec3(0.2, 0.75, 0.3), clamp(4.0 * t - 1.0, 0.0, 1.0));
+  vec3 high = mix(middle, vec3(0.95, 0.85, 0.2), clamp(4.0 * t - 2.0, 0.0, 1.0));
+  return mix(high, vec3(0.85, 0.1, 0.1), clamp(4.0 * t - 3.0, 0.0, 1.0));
+}
+
+float on_scale(float x) { return clamp((x - push.low) / max(push.high - push.low, 1e-30), 0.0, 1.0); }
+
+// A colour for a number, far from those of its neighbours: steps of the golden ratio around the circle of hues, of
+// another irrational in brightness.
+vec3 color_of(uint number) {
+  float hue = fract(float(number) * 0.6180339887);
+  float brightness = 0.55 + 0.45 * fract(float(number) * 0.7548776662);
+  vec3 circle = clamp(abs(fract(hue + vec3(0.0, 2.0, 1.0) / 3.0) * 6.0 - 3.0) - 1.0, 0.0, 1.0);
+  return brightness * mix(vec3(1.0), circle, 0.7);
+}
+
+// The outputs that are no colours are those of one pixel of the frame: a mean of them says nothing.
+vec3 output_of(uint index) {
+  if (push.shown == SHOWN_ERROR) {
+    float error = colors[index].x;
+    if (error == ERROR_NOTHING) return vec3(0.12);
+    if (error == ERROR_UNDECIDED) return vec3(0.5);
+    if (error == ERROR_WRONG) return vec3(1.0, 0.0, 1.0);
+    return heat(on_scale(log(max(error, 1e-30)) / log(10.0)));
+  }
+  PixelAovs pixel = pixels[index];
+  if (push.shown == SHOWN_EVALUATIONS) return heat(on_scale(float(pixel.evaluations)));
+  if (pixel.triangle == NO_TRIANGLE) return vec3(0.12);
+  if (push.shown == SHOWN_NORMAL) return 0.5 + 0.5 * pixel.normal_z.xyz;
+  if (push.shown == SHOWN_GEOMETRIC) return 0.5 + 0.5 * pixel.geometric_u.xyz;
+  if (push.shown == SHOWN_DEPTH) return vec3(1.0 - on_scale(pixel.normal_z.w));
+  if (push.shown == SHOWN_PATCH) return color_of(pixel.triangle);
+  return vec3(pixel.geometric_u.w, pixel.v, 1.0 - pixel.geometric_u.w - pixel.v);
+}
+
+// Of `across` x `across` pixels of the frame, in linear light.
+vec3 mean_color(uvec2 first, uint across) {
+  vec3 sum = vec3(0.0);
+  for (uint row = 0u; row < across; ++row) {
+    for (uint column = 0u; column < across; ++column) {
+      sum += linear_from_srgb(colors[index_of(first + uvec2(column, row))].rgb);
+    }
+  }
+  return srgb_from_linear(sum / float(across * across));
+}
+
+void main() {
+  vec2 frame = vec2(push.frame_width, push.frame_height);
+  vec2 position = gl_FragCoord.xy / vec2(push.width, push.height) * frame;
+  uint across = push.frame_width / push.width;
+  if (push.shown != SHOWN_COLOR) {
+    shown = vec4(output_of(index_of(uvec2(position))), 1.0);
+  } else if (across > 1u) {
+    shown = vec4(mean_color(uvec2(gl_FragCoord.xy) * across, across), 1.0);
+  } else if (push.frame_width == push.width) {
+    // As it is.
+    shown = texelFetch(texture_of_frame, ivec2(gl_FragCoord.xy), 0);
+  } else {
+    // Not beyond the middles of the frame's outermost pixels: what is there in the texture is no part of it.
+    vec2 within = clamp(position, vec2(0.5), frame - 0.5);
+    shown = texture(texture_of_frame, within / vec2(textureSize(texture_of_frame, 0)));
+  }
+}

@@ -1,0 +1,85 @@
+#include "tests/support/x_display.h"
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <stdexcept>
+
+namespace trisect::test {
+
+XDisplay::XDisplay() {
+  std::array<int, 2> pipe{};
+  if (::pipe(pipe.data()) != 0) throw std::runtime_error("no pipe");
+  server_ = fork();
+  if (server_ == 0) {
+    close(pipe[0]);
+    // The server says by the pipe which free number it took, once it can be reached.
+    const std::string number = std::to_string(pipe[1]);
+    execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "1280x1024x24",
+           "-nolisten", "tcp", "-noreset", nullptr);
+    _exit(127);
+  }
+  close(pipe[1]);
+  for (char c = 0; read(pipe[0], &c, 1) == 1 && c != '\n';) number_ += c;
+  close(pipe[0]);
+  if (number_.empty()) throw std::runtime_error("Xvfb did not start; is it installed?");
+}
+
+XDisplay::~XDisplay() {
+  if (manager_ > 0) {
+    kill(manager_, SIGTERM);
+    waitpid(manager_, nullptr, 0);
+  }
+  kill(server_, SIGTERM);
+  waitpid(server_, nullptr, 0);
+}
+
+void XDisplay::manage_windows() {
+  manager_ = fork();
+  if (manager_ == 0) {
+    setenv("DISPLAY", (":" + number_).c_str(), 1);
+    // What it says of missing menus and screens concerns nobody.
+    if (freopen("/dev/null", "w", stderr) == nullptr) _exit(127);
+    execlp("openbox", "openbox", "--sm-disable", nullptr);
+    _exit(127);
+  }
+  // It says what it can do on the root window, once it does.
+  for (int i = 0;
+       run("xprop -root _NET_SUPPORTING_WM_CHECK").find("window id") == std::string::npos; ++i) {
+    if (i == 100) throw std::runtime_error("openbox did not start; is it installed?");
+    usleep(50000);
+  }
+}
+
+bool XDisplay::shows(const std::string& name) const {
+  return !run("xdotool search --onlyvisible --name '" + name + "' || true").empty();
+}
+
+std::string XDisplay::run(const std::string& words) const {
+  const std::string command = "export " + environment() + "; " + words + " 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) throw std::runtime_error("no shell could be started");
+  std::string output;
+  std::array<char, 256> part{};
+  while (fgets(part.data(), part.size(), pipe) != nullptr) output += part.data();
+  if (pclose(pipe) != 0) throw std::runtime_error(command + ": " + output);
+  return output;
+}
+
+std::string XDisplay::window_called(const std::string& name) const {
+  const std::string windows = xdotool("search --sync --name '" + name + "'");
+  return windows.substr(0, windows.find('\n'));
+}
+
+std::string XDisplay::pixel(const std::string& window, int x, int y, int around) const {
+  const int side = 2 * around + 1;
+  const std::string part = std::to_string(side) + "x" + std::to_string(side) + "+" +
+                           std::to_string(x - around) + "+" + std::to_string(y - around);
+  // Its text format has a line for each pixel, "0,0: (0,0,255)  #0000FF  blue".
+  return run("import -silent -window " + window + " -crop " + part + " -depth 8 txt:-");
+}
+
+}  // namespace trisect::test
