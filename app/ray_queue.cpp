@@ -10,7 +10,7 @@ RayQueue::RayQueue(const gpu::Device& device, uint32_t rays, uint32_t steps)
       steps_(steps),
       paused_(device, std::size_t{2} * rays * sizeof(PausedRay), gpu::Memory::device,
               "paused rays"),
-      queued_(device, sizeof(uint32_t), gpu::Memory::host, "number of paused rays") {}
+      queued_(device, sizeof(QueueState), gpu::Memory::host, "number of paused rays") {}
 
 double RayQueue::run_all(gpu::Commands& commands, std::span<const gpu::Kernel> kernels,
                          const gpu::BoundBuffers& bound, uint32_t groups, uint32_t group_rays,
@@ -23,14 +23,15 @@ double RayQueue::run_all(gpu::Commands& commands, std::span<const gpu::Kernel> k
       groups = (queue.resumed + group_rays - 1) / group_rays;
       if (between_submits) between_submits();
     }
-    uint32_t queued = 0;
-    std::memcpy(queued_.bytes().data(), &queued, sizeof(queued));
+    QueueState state{};
+    std::memcpy(queued_.bytes().data(), &state, sizeof(state));
     commands.begin();
     const std::size_t kernel = std::min<std::size_t>(queue.pass, kernels.size() - 1);
     commands.dispatch(kernels[kernel], bound, push_bytes(queue), groups);
     gpu_ms += commands.submit_and_wait();
-    std::memcpy(&queued, queued_.bytes().data(), sizeof(queued));
-    return queued;
+    std::memcpy(&state, queued_.bytes().data(), sizeof(state));
+    bytes_read_ += bytes_read(state);
+    return state.queued;
   });
   return gpu_ms;
 }

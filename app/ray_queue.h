@@ -12,6 +12,10 @@
 
 namespace trisect {
 
+inline uint64_t bytes_read(const QueueState& state) {
+  return (uint64_t{state.bytes_high} << 32U) + state.bytes_low;
+}
+
 // Calls submit(queue) until no ray is left, for new rays first: it runs the kernel with these push
 // constants and returns how many rays paused. half: places of a queue's half, 0 if a ray has its
 // own.
@@ -51,6 +55,9 @@ class RayQueue {
                    });
   }
 
+  // What rays have read of the scene since this was last asked, if the kernels count it.
+  uint64_t take_bytes_read() { return std::exchange(bytes_read_, 0); }
+
   // llvmpipe ends all loops of a subgroup, of at most 16 rays, after 65535 iterations.
   static constexpr uint32_t kSteps = 4000;
 
@@ -63,7 +70,8 @@ class RayQueue {
   uint32_t rays_;
   uint32_t steps_;
   gpu::Buffer paused_;  // in two halves: one is read while the other is filled
-  gpu::Buffer queued_;  // how many of the half that is filled are in use
+  gpu::Buffer queued_;  // a QueueState, of the half that is filled
+  uint64_t bytes_read_ = 0;
 };
 
 }  // namespace trisect

@@ -32,6 +32,7 @@ nlohmann::ordered_json json_of(const Spread& spread) {
 
 WorkCounts work_of(const Frame& frame) {
   WorkCounts counts;
+  counts.bytes_read = frame.bytes_read;
   for (const PixelAovs& pixel : frame.aovs) {
     counts.evaluations += pixel.evaluations;
     counts.candidates += pixel.candidates;
@@ -61,6 +62,7 @@ std::string to_json(const RenderOptions& options, const RenderStatistics& statis
   if (statistics.counts) {
     json["evals_total"] = statistics.counts->evaluations;
     json["candidates_total"] = statistics.counts->candidates;
+    if (statistics.counts->bytes_read > 0) json["bytes_read"] = statistics.counts->bytes_read;
   }
   json["shadows"] = options.shadows;
   json["spp"] = options.spp;

@@ -31,6 +31,9 @@ nlohmann::ordered_json json_of(const Spread& spread);
 struct WorkCounts {
   uint64_t evaluations = 0;  // of a field (bisect) or of a surface with its derivatives (robust)
   uint64_t candidates = 0;   // triangles or parts of triangles whose ball a pixel's ray meets
+  // Of the scene by the rays on their way, each its own: what several load together, or what a
+  // cache keeps, counts for each that asks for it. 0 if it is not counted.
+  uint64_t bytes_read = 0;
 };
 
 // Of a frame with AOVs; 0 if nothing was counted.

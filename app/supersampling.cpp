@@ -25,6 +25,7 @@ Frame averaged(Frame samples, uint32_t across) {
   if (across == 1) return samples;
   Frame frame;
   frame.resize(samples.width / across, samples.height / across, !samples.aovs.empty());
+  frame.bytes_read = samples.bytes_read;
   const float weight = 1.0F / (static_cast<float>(across) * static_cast<float>(across));
   for (uint32_t y = 0; y < frame.height; ++y) {
     for (uint32_t x = 0; x < frame.width; ++x) {

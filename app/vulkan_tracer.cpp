@@ -165,6 +165,7 @@ FrameTime VulkanTracer::render(const TraceParams& params, Frame& frame,
     time.gpu_ms += render_band(params, row, rows, between_submits);
     download_band(row, rows, frame);
   }
+  frame.bytes_read = image_.queue.take_bytes_read();
   time.wall_ms = watch.milliseconds();
   return time;
 }

@@ -23,6 +23,7 @@ uint find_part(PixelRay ray, INOUT(Walk) walk) {
   while (walk.item != BVH_END && walk.steps > 0 && part == NO_TRIANGLE) {
     --walk.steps;
     BvhEntry entry = bvh[walk.item];
+    if (COUNTS) walk.counts.bytes += BVH_ENTRY_BYTES;
     vec3 a = (vec3(entry.lo_x, entry.lo_y, entry.lo_z) - slack - ray.anchor) * inverse;
     vec3 b = (vec3(entry.hi_x, entry.hi_y, entry.hi_z) + slack - ray.anchor) * inverse;
     vec3 enter = min(a, b);

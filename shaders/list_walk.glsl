@@ -13,6 +13,7 @@ uint find_part(PixelRay ray, INOUT(Walk) walk) {
   while (walk.item < count && walk.steps > 0 && !met) {
     --walk.steps;
     part = part_at(ray.tile, walk.item);
+    if (COUNTS) walk.counts.bytes += BALL_BYTES;
     if (is_beside(ray, cages[part].ball, walk.hit.z)) {
       walk.item += GROUPS ? cages[part].skip + 1u : 1u;
       walk.path = WHOLE;

@@ -7,6 +7,9 @@
 const uint CHILDREN = 8u;
 const uint CAGE_WORDS = 6u;
 const uint TRIANGLE_WORDS = 12u;
+// What an invocation loads of a part and its triangle in load_by_all, and where it looks what an entry is.
+const uint SHARE_BYTES = 48u;
+const uint LINK_BYTES = 4u;
 // A packet gives up after so many: llvmpipe ends all loops of a subgroup after 65535 iterations. Its rays then start
 // anew one by one.
 const int PACKET_STEPS = 16000;
@@ -70,6 +73,7 @@ struct Descent {
   uint left;  // bit k: child k
   int level;
   int steps;  // that it may still take
+  uint bytes;  // that an invocation has read, of boxes and of what it shares with others of its subgroup
 };
 
 // 256 times the number of a node above, and its children that are still to be seen, for each level and subgroup. Not
@@ -91,6 +95,7 @@ Descent descent_begun(Packet packet) {
   descent.left = children_met(packet, 0u, 1e30);
   descent.level = 0;
   descent.steps = PACKET_STEPS;
+  descent.bytes = BVH_ENTRY_BYTES;
   return descent;
 }
 
@@ -116,9 +121,13 @@ uint next_part(Packet packet, PixelRay ray, bool awake, float z, inout Descent d
       descent.left &= descent.left - 1u;
       uint link = bvh[descent.node + (k ^ packet.octant)].link;
       if (link >= BVH_PART) {
+        if (COUNTS) descent.bytes += LINK_BYTES + BALL_BYTES;
         here = awake && !is_beside(ray, cage_words[(link - BVH_PART) * CAGE_WORDS], z);
         // Here and not by the caller: llvmpipe goes through a branch that no ray takes.
-        if (subgroupAny(here)) part = link - BVH_PART;
+        if (subgroupAny(here)) {
+          part = link - BVH_PART;
+          if (COUNTS) descent.bytes += SHARE_BYTES;
+        }
       } else {
         if (descent.left != 0u) {
           above[gl_SubgroupID][descent.level] = (descent.node / CHILDREN << CHILDREN) + descent.left;
@@ -126,6 +135,7 @@ uint next_part(Packet packet, PixelRay ray, bool awake, float z, inout Descent d
         }
         descent.node = link;
         descent.left = children_met(packet, link, end);
+        if (COUNTS) descent.bytes += LINK_BYTES + BVH_ENTRY_BYTES;
       }
     }
   } while (part == NO_TRIANGLE && !ended);

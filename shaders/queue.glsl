@@ -1,7 +1,7 @@
 // Rays that pause.
 
 layout(std430, binding = BINDING_QUEUE) restrict buffer QueueBlock { PausedRay paused[]; };
-layout(std430, binding = BINDING_QUEUED) restrict buffer QueuedBlock { uint queued; };
+layout(std430, binding = BINDING_QUEUED) restrict buffer QueuedBlock { QueueState state; };
 
 // The walk that paused at a place of the queue.
 Walk resumed_walk(uint place, int steps) {
@@ -13,6 +13,7 @@ Walk resumed_walk(uint place, int steps) {
   walk.hit.part = ray.part;
   walk.counts.evaluations = ray.evaluations;
   walk.counts.candidates = ray.candidates;
+  walk.counts.bytes = 0u;
   walk.item = ray.item;
   walk.path = ray.path;
   walk.steps = steps;
@@ -31,4 +32,11 @@ void pause(uint place, uint ray, Walk walk) {
 }
 
 // At the next place of the half that is filled.
-void enqueue(uint ray, Walk walk) { pause(push.queue.to + atomicAdd(queued, 1u), ray, walk); }
+void enqueue(uint ray, Walk walk) { pause(push.queue.to + atomicAdd(state.queued, 1u), ray, walk); }
+
+// Adds what an invocation has read to what all of them have.
+void count_bytes(Walk walk) {
+  if (!COUNTS) return;
+  uint before = atomicAdd(state.bytes_low, walk.counts.bytes);
+  if (before + walk.counts.bytes < before) atomicAdd(state.bytes_high, 1u);
+}

@@ -49,6 +49,8 @@ void main() {
     }
   } while (part != NO_TRIANGLE);
   if (invocation >= push.queue.resumed) return;
+  walk.counts.bytes = descent.bytes;
+  count_bytes(walk);
   if (!awake || walk.path != WHOLE || descent.steps <= 0) {
     walk.path = WHOLE;
     enqueue(index, walk);

@@ -124,6 +124,20 @@ struct PausedRay {
   uint padding;
 };
 
+// What a submit leaves behind.
+struct QueueState {
+  uint queued;     // rays that paused
+  uint bytes_low;  // that rays have read of the scene, 64 bits, if work is counted
+  uint bytes_high;
+  uint padding;
+};
+
+// Bytes of the structures above and of an entry of the tree.
+const uint TRIANGLE_BYTES = 192u;
+const uint CAGE_BYTES = 96u;
+const uint BALL_BYTES = 16u;  // of either
+const uint BVH_ENTRY_BYTES = 32u;
+
 // What a submit goes on with.
 struct QueuePush {
   uint pass;     // how many submits these rays have been through

@@ -98,6 +98,7 @@ struct Hit {
 struct Counts {
   uint evaluations;
   uint candidates;
+  uint bytes;  // of the scene that were read by its invocation, on the way through the patches, since it last began
 };
 
 // How far a ray has come through the list, of cages or of triangles.

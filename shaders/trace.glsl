@@ -13,6 +13,9 @@ Shape scene_shape() {
 // Iterations of the loops of walk_bisect in one pass.
 const uint BISECT_STEPS = 65000u;
 
+// Of the three corners of a triangle.
+const uint CORNERS_BYTES = 48u;
+
 // A walk through nothing yet.
 Walk walk_begun(int steps) {
   Walk walk;
@@ -22,6 +25,7 @@ Walk walk_begun(int steps) {
   walk.hit.part = NO_TRIANGLE;
   walk.counts.evaluations = 0u;
   walk.counts.candidates = 0u;
+  walk.counts.bytes = 0u;
   walk.item = 0u;
   walk.path = WHOLE;
   walk.steps = steps;
@@ -49,6 +53,7 @@ void walk_bisect(PixelRay ray, uint pass, INOUT(Walk) walk) {
     real cdepth = min(walk.hit.z, ray.far_depth);
     real depth;
     vec3 weights;
+    if (COUNTS) walk.counts.bytes += SURFACE == SURFACE_FLAT ? CORNERS_BYTES : BALL_BYTES;
     if (SURFACE == SURFACE_FLAT) {
       if (!hit_flat(triangles[t], ray.near_point, ray.view, cdepth, depth, weights)) continue;
     } else {
@@ -58,6 +63,7 @@ void walk_bisect(PixelRay ray, uint pass, INOUT(Walk) walk) {
       if (COUNTS) {
         ++walk.counts.candidates;
         walk.counts.evaluations += params.rank - 1u;
+        walk.counts.bytes += TRIANGLE_BYTES - BALL_BYTES;
       }
       if (!bisect(scene_shape(), triangles[t], bounds, ray.near_point, ray.view, int(params.rank),
                   params.resolution, params.min_delta, cdepth, depth, weights))
@@ -78,6 +84,7 @@ void walk_robust(PixelRay ray, INOUT(Walk) walk) {
     uint part = find_part(ray, walk);
     if (part != NO_TRIANGLE) {
       if (COUNTS && walk.path == WHOLE) ++walk.counts.candidates;
+      if (COUNTS) walk.counts.bytes += TRIANGLE_BYTES + CAGE_BYTES;
       meet_part(scene_shape(), triangles[cages[part].triangle], cages[part], part, ray.frame, ray.view, ray.nearest,
                 walk);
       end_in_shadow(walk);

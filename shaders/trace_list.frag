@@ -30,9 +30,10 @@ void main() {
   }
   precise PixelRay ray = ray_through(to_near, across);
   go_on(ray, push.queue.pass, walk);
+  count_bytes(walk);
   if (!is_through(ray, walk)) {
     pause(index, index, walk);
-    atomicAdd(queued, 1u);
+    atomicAdd(state.queued, 1u);
     discard;
   }
   if (push.queue.pass > 0u) paused[index].path = NOWHERE;

@@ -53,6 +53,8 @@ void main() {
   } while (part != NO_TRIANGLE);
   undecided = (undecided || descent.steps <= 0) && walk.hit.z != NOTHING_MORE;
   if (pixel.x >= params.width || pixel.y >= params.height) return;
+  walk.counts.bytes = descent.bytes;
+  count_bytes(walk);
   if (undecided) {
     enqueue(pixel.y * params.width + pixel.x, walk);
     return;

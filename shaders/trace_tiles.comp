@@ -27,6 +27,12 @@ layout(std430, binding = BINDING_TILE_ORDER) readonly restrict buffer TileOrderB
 const uint VIEW_WORDS = 12u;
 const uint PATCH_WORD = 4u;
 
+// Where in the image a part is seen takes its first words. What is read of it by all invocations of a subgroup, and what one
+// of them reads if each loads some of that.
+const uint SEEN_BYTES = 64u;
+const uint VIEW_BYTES = 192u;
+const uint SHARE_BYTES = 32u;
+
 // Where in the image the part is seen; every invocation of a subgroup may ask for another one.
 ViewPart seen_by_one(uint part) {
   ViewPart view;
@@ -75,6 +81,9 @@ ViewPart view_by_all(uint part) {
 // One part, all rays of the subgroup.
 void meet(uint part, PixelRay ray, vec2 position, INOUT(Walk) walk, INOUT(bool) undecided) {
   ViewPart view = view_by_all(part);
+  if (COUNTS) walk.counts.bytes += gl_SubgroupSize < 8u ? VIEW_BYTES : SHARE_BYTES;
+  // Newton's method needs nothing else of the triangle, but for blended spheres.
+  if (COUNTS && SURFACE == SURFACE_SPHERE) walk.counts.bytes += TRIANGLE_BYTES;
   FramedPatch at;
   at.P0 = view.P0.xyz;
   at.P1 = view.P1.xyz;
@@ -110,6 +119,7 @@ void main() {
     uint item = first + gl_SubgroupInvocationID;
     uint mine = tile_parts[tile * TILE_PARTS + min(item, count - 1u)];
     ViewPart view = seen_by_one(mine);
+    if (COUNTS) walk.counts.bytes += 4u + SEEN_BYTES;
     bool seen = item < count && may_see(view, 0.5 * (least + largest), 0.5 * (largest - least) + vec2(PIXEL_SLACK));
     float begins = seen ? view.lines_x.w : 1e30;
     // Front to back, as long as a part begins before what the rays have met. Of a subgroup that sees none one part is
@@ -124,6 +134,7 @@ void main() {
     first += gl_SubgroupSize;
   } while (first < count);
   if (pixel.x >= params.width || pixel.y >= params.height) return;
+  count_bytes(walk);
   if (undecided) {
     // From the first part of the list on.
     enqueue(pixel.y * params.width + pixel.x, walk);

@@ -30,6 +30,7 @@ void main() {
   precise PixelRay ray = ray_of(pixel);
   ray.tile = tile_of(pixel);
   go_on(ray, push.queue.pass, walk);
+  count_bytes(walk);
   if (!is_through(ray, walk)) {
     enqueue(pixel.y * params.width + pixel.x, walk);
     return;

@@ -155,6 +155,23 @@ TEST(Layout, TraceParams) {
                                    {"cage_count", offsetof(TraceParams, cage_count)}}));
 }
 
+TEST(Layout, BytesAreThoseOfTheStructures) {
+  EXPECT_EQ(sizeof(Triangle), TRIANGLE_BYTES);
+  EXPECT_EQ(sizeof(Cage), CAGE_BYTES);
+  EXPECT_EQ(sizeof(BvhEntry), BVH_ENTRY_BYTES);
+  EXPECT_EQ(sizeof(Cage::ball), BALL_BYTES);
+  EXPECT_EQ(sizeof(Triangle::Domain), BALL_BYTES);
+}
+
+TEST(Layout, QueueState) {
+  const Held held = bound_to(BINDING_QUEUED);
+  EXPECT_EQ(held.stride, sizeof(QueueState));
+  EXPECT_EQ(held.offsets, (Offsets{{"queued", offsetof(QueueState, queued)},
+                                   {"bytes_low", offsetof(QueueState, bytes_low)},
+                                   {"bytes_high", offsetof(QueueState, bytes_high)},
+                                   {"padding", offsetof(QueueState, padding)}}));
+}
+
 TEST(Layout, PausedRay) {
   const Held held = bound_to(BINDING_QUEUE);
   EXPECT_EQ(held.stride, sizeof(PausedRay));

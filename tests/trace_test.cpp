@@ -3,6 +3,10 @@
 
 #include <cmath>
 
+#include "app/accel.h"
+#include "app/bvh.h"
+#include "app/cage.h"
+#include "app/options.h"
 #include "app/vulkan_tracer.h"
 #include "tests/support/frame_difference.h"
 #include "tests/support/gpu.h"
@@ -380,6 +384,35 @@ TEST_F(Trace, WorksAtBothEndsOfTheRangeOfSizes) {
     // The scale is no power of two: a pixel at the outline may round to the other side.
     EXPECT_NEAR(static_cast<double>(frame.hits()), static_cast<double>(expected.hits()), 2.0)
         << scale;
+  }
+}
+
+TEST_F(Trace, CountsTheBytesThatRaysRead) {
+  const Mesh mesh = test::load_asset("sphere-320");
+  const auto bytes_of = [&](const BakedScene& scene, uint solver, Accel accel) {
+    TraceSettings settings = test::framed(mesh, scene, 800, 600, 10);
+    settings.solver = solver;
+    const TraceParams params = make_params(scene, settings);
+    VulkanTracer tracer(test::validated_device(), scene, 800, 600,
+                        {.solver = solver, .aovs = true, .counts = true, .accel = accel});
+    Frame frame;
+    tracer.render(params, frame);
+    return frame.bytes_read;
+  };
+  constexpr uint64_t kPixels = uint64_t{800} * 600;
+  // Every ray reads three corners of every triangle: more than 32 bits count.
+  const BakedScene flat = bake(mesh, {SURFACE_FLAT, 0.0});
+  EXPECT_EQ(bytes_of(flat, SOLVER_BISECT, Accel::list), kPixels * 320 * 3 * sizeof(vec4));
+  BakedScene curved = bake_with_cages(mesh, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
+  curved.bvh = build_bvh(curved);
+  const uint64_t list = bytes_of(curved, SOLVER_ROBUST, Accel::list);
+  // Every ray reads the ball of every patch, at least, and some of them a part.
+  EXPECT_GT(list, kPixels * curved.triangles.size() * sizeof(vec4));
+  for (const Accel accel : {Accel::tiles, Accel::bvh}) {
+    const uint64_t bytes = bytes_of(curved, SOLVER_ROBUST, accel);
+    EXPECT_GT(bytes, kPixels * sizeof(vec4)) << accel_name(accel);
+    EXPECT_LT(bytes, list / 4) << accel_name(accel)
+                               << ": a quarter of the image has parts, a few each";
   }
 }
 

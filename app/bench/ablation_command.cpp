@@ -37,7 +37,7 @@ double each_pixel(const Ablation& ablation, uint64_t count) {
 
 bench::Table table_of(const Ablation& ablation) {
   bench::Table table{{{"", "change", "from", "ms", "times as fast", "error", "wrong or missed",
-                       "evaluations a pixel", "candidates a pixel"}}};
+                       "evaluations a pixel", "candidates a pixel", "bytes a pixel"}}};
   for (std::size_t i = 0; i < ablation.steps.size(); ++i) {
     const Step& step = ablation.steps[i];
     const Measurement& m = step.measurement;
@@ -48,7 +48,8 @@ bench::Table table_of(const Ablation& ablation) {
                           first ? "" : fmt::format("{:.2f}", times_as_fast(ablation, step)),
                           fmt::format("{:.1e}", m.errors.rms), fmt::to_string(wrong_pixels(m)),
                           fmt::format("{:.1f}", each_pixel(ablation, m.work.evaluations)),
-                          fmt::format("{:.2f}", each_pixel(ablation, m.work.candidates))});
+                          fmt::format("{:.2f}", each_pixel(ablation, m.work.candidates)),
+                          fmt::format("{:.0f}", each_pixel(ablation, m.work.bytes_read))});
   }
   return table;
 }
@@ -67,7 +68,8 @@ nlohmann::ordered_json json_of(const std::vector<Ablation>& ablations) {
                        {"wrong_hits", m.errors.wrong},
                        {"missed", m.errors.missed},
                        {"evaluations", m.work.evaluations},
-                       {"candidates", m.work.candidates}});
+                       {"candidates", m.work.candidates},
+                       {"bytes_read", m.work.bytes_read}});
     }
     all.push_back({{"model", ablation.model},
                    {"surface", surface_name(ablation.surface)},

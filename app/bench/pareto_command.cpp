@@ -57,7 +57,9 @@ std::vector<Block> report_of(const std::vector<bench::Scene>& scenes,
       "hit. normal: degrees between geometric normals (flat triangles give the surface's own at "
       "the point that they stand for). outline: from each pixel of the frame's outline to the "
       "true one, in pixels, the mean. RMSE and PSNR: of the colours, in steps of 8 bits and in "
-      "decibels. KB: the scene without images. front: nothing is both faster and more exact."});
+      "decibels. MB read: of the scene by this program's rays on their way to the surface, each "
+      "its own "
+      "loads. KB: the scene without images. front: nothing is both faster and more exact."});
   for (const bench::Scene& scene : scenes) {
     const std::string name = bench::name_of(scene);
     blocks.emplace_back(bench::Heading{2, fmt::format("{}, {} ({} patches)", scene.model,

@@ -49,7 +49,8 @@ std::string csv_of(const std::vector<Scene>& scenes) {
   std::string text =
       "model,surface,patches,family,number,ms_median,ms_min,ms_max,rms,off_p50,off_p99,off_max,"
       "ulp_p50,ulp_p99,ulp_max,normal_p50,normal_p99,normal_max,wrong,missed,undecidable,nans,"
-      "outline_mean,outline_max,color_rmse,psnr,evaluations,candidates,bytes,dominated_by\n";
+      "outline_mean,outline_max,color_rmse,psnr,evaluations,candidates,bytes_read,bytes,dominated_"
+      "by\n";
   for (const Scene& scene : scenes) {
     for (const Measurement& m : scene.measurements) {
       const FrameErrors& e = m.errors;
@@ -57,12 +58,14 @@ std::string csv_of(const std::vector<Scene>& scenes) {
           m.dominated_by ? label_of(scene.measurements[*m.dominated_by]) : std::string();
       text += fmt::format(
           "{},{},{},\"{}\",\"{}\",{:.3f},{:.3f},{:.3f},{:.4e},{:.4e},{:.4e},{:.4e},{:.3g},{:.3g},"
-          "{:.3g},{:.3e},{:.3e},{:.3e},{},{},{},{},{:.4f},{:.3f},{:.5g},{:.4g},{},{},{},\"{}\"\n",
+          "{:.3g},{:.3e},{:.3e},{:.3e},{},{},{},{},{:.4f},{:.3f},{:.5g},{:.4g},{},{},{},{},\"{}"
+          "\"\n",
           scene.model, surface_name(scene.surface), scene.patches, m.family, m.number, m.ms.median,
           m.ms.min, m.ms.max, e.rms, e.off.p50, e.off.p99, e.off.max, e.depth_ulp.p50,
           e.depth_ulp.p99, e.depth_ulp.max, e.normal_degrees.p50, e.normal_degrees.p99,
           e.normal_degrees.max, e.wrong, e.missed, e.undecidable, e.nans, e.outline_mean,
-          e.outline_max, e.color_rmse, e.psnr, m.work.evaluations, m.work.candidates, m.bytes, by);
+          e.outline_max, e.color_rmse, e.psnr, m.work.evaluations, m.work.candidates,
+          m.work.bytes_read, m.bytes, by);
     }
   }
   return text;
@@ -95,6 +98,7 @@ nlohmann::ordered_json json_of(const std::vector<Scene>& scenes) {
       if (std::isfinite(e.psnr)) one["psnr"] = e.psnr;
       one["evaluations"] = m.work.evaluations;
       one["candidates"] = m.work.candidates;
+      one["bytes_read"] = m.work.bytes_read;
       one["bytes"] = m.bytes;
       one["on_front"] = !m.dominated_by.has_value();
       if (m.dominated_by) one["dominated_by"] = label_of(scene.measurements[*m.dominated_by]);
@@ -158,7 +162,7 @@ std::vector<std::string> findings_of(const Scene& scene) {
 Table table_of(const Scene& scene) {
   Table table{{{"contender", "ms", "least", "most", "error", "wrong", "missed", "off p50",
                 "off p99", "off max", "ulp p99", "normal p99", "outline", "RMSE", "PSNR",
-                "evaluations", "KB", "front"}}};
+                "evaluations", "MB read", "KB", "front"}}};
   for (const Measurement& m : scene.measurements) {
     const FrameErrors& e = m.errors;
     table.rows.push_back(
@@ -170,6 +174,7 @@ Table table_of(const Scene& scene) {
          fmt::format("{:.2f}", e.outline_mean), fmt::format("{:.2g}", e.color_rmse),
          fmt::format("{:.0f}", e.psnr),
          m.work.evaluations > 0 ? fmt::to_string(m.work.evaluations) : "",
+         m.work.bytes_read > 0 ? fmt::to_string(m.work.bytes_read >> 20U) : "",
          fmt::to_string(m.bytes / 1024), m.dominated_by ? "" : "yes"});
   }
   return table;

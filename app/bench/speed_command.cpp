@@ -34,7 +34,7 @@ using bench::SampleCheck;
 // Between the pixels that the oracle is asked about.
 constexpr uint32_t kCheckStep = 20;
 
-struct Row {
+struct Runner {
   std::string name;
   std::unique_ptr<Contender> contender;
   const SampleCheck* check;     // nothing if its picture means nothing
@@ -91,20 +91,20 @@ class Race {
 
   void run() {
     Frame frame;
-    for (Row& row : rows_) {
+    for (Runner& row : rows_) {
       row.contender->render(frame);
       if (row.check != nullptr) row.wrong = row.check->count_wrong(frame);
     }
     // Side by side: what else the machine does meets all alike.
     for (uint32_t run = 0; run < options_.runs; ++run) {
-      for (Row& row : rows_) {
+      for (Runner& row : rows_) {
         row.times.push_back(row.contender->render(frame));
         stop_if_interrupted();
       }
     }
   }
 
-  [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
+  [[nodiscard]] const std::vector<Runner>& rows() const { return rows_; }
   [[nodiscard]] std::size_t patches() const { return scene_.triangles.size(); }
   [[nodiscard]] std::size_t flat_triangles() const { return flat_triangles_; }
   [[nodiscard]] double flat_error() const { return flat_error_; }
@@ -152,12 +152,12 @@ class Race {
   TraceParams thesis_params_{};
   std::optional<SampleCheck> check_;
   std::optional<SampleCheck> thesis_check_;
-  std::vector<Row> rows_;
+  std::vector<Runner> rows_;
   std::size_t flat_triangles_ = 0;
   double flat_error_ = 0.0;
 };
 
-constexpr const char* kHeader =
+constexpr const char* kSpeedHeader =
     "| model | surface | contender | ms | least | most | of the thesis | of the image | wrong | of "
     "| KB | build ms |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
 
@@ -165,7 +165,7 @@ void report(const std::string& model, uint surface, const Race& race,
             nlohmann::ordered_json& json) {
   const double floor = spread_of(race.rows()[0].times).median;
   const double thesis = spread_of(race.rows()[1].times).median;
-  for (const Row& row : race.rows()) {
+  for (const Runner& row : race.rows()) {
     const Spread ms = spread_of(row.times);
     const std::size_t pixels = row.check != nullptr ? row.check->pixels() : 0;
     const std::size_t bytes = row.contender->bytes();
@@ -206,7 +206,7 @@ int bench_speed(const BenchOptions& options) {
   std::optional<AtomicFile> file;
   if (!options.json.empty()) file.emplace(options.json);
   fmt::print("device {}, driver {}, {}x{}, medians of {} runs\n\n{}", device.report().name,
-             device.report().driver, options.width, options.height, options.runs, kHeader);
+             device.report().driver, options.width, options.height, options.runs, kSpeedHeader);
   std::fflush(stdout);
   nlohmann::ordered_json json;
   json["device"] = device.report().name;

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "app/buffer_limits.h"
 #include "app/cage.h"
@@ -66,7 +67,7 @@ Tracer::Tracer(const BakedScene& scene, uint32_t width, uint32_t height, const K
       cages_(cage_bytes(device_name(), buffer_limit_, scene), "cages"),
       params_(sizeof(TraceParams), "trace parameters"),
       push_(sizeof(TilePush), "push constants"),
-      queued_(sizeof(uint32_t), "number of paused rays"),
+      queued_(sizeof(QueueState), "number of paused rays"),
       paused_(path == GlPath::compute
                   ? std::size_t{2} * groups_of_band(width, 0, band_rows_).most() * kGroupRays *
                         sizeof(PausedRay)
@@ -124,6 +125,7 @@ FrameTime Tracer::render(const TraceParams& params, Frame& frame,
       target_->read(row, rows, frame);
     }
   }
+  frame.bytes_read = std::exchange(bytes_read_, 0);
   check("a frame was rendered");
   time.wall_ms = watch.milliseconds();
   return time;
@@ -134,10 +136,11 @@ uint32_t Tracer::submit(const TilePush& push, const std::function<void()>& work)
   queued_.clear();
   work();
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-  uint32_t queued = 0;
+  QueueState state{};
   // Waits for the work.
-  queued_.read(0, std::as_writable_bytes(std::span(&queued, 1)));
-  return queued;
+  queued_.read(0, std::as_writable_bytes(std::span(&state, 1)));
+  bytes_read_ += bytes_read(state);
+  return state.queued;
 }
 
 double Tracer::compute_band(const Program& program, uint32_t first_row, uint32_t rows,

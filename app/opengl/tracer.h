@@ -52,6 +52,7 @@ class Tracer {
   Buffer params_;
   Buffer push_;
   Buffer queued_;
+  uint64_t bytes_read_ = 0;
   Buffer paused_;  // compute: RayQueue's two halves; fragment: a place for each pixel
   Program program_;
   std::optional<Program> shadow_program_;
