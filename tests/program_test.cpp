@@ -209,6 +209,10 @@ TEST_F(Program, ReportsSpeedAgainstError) {
                          "phong", "--size", "80x60", "--hardcases", table, "-o", folder_ / "r"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_NE(test::content_of(folder_ / "r" / "report.md").find("| needle |"), std::string::npos);
+  // Who measured, and what: as comments ahead of the table, too.
+  const std::string csv = test::content_of(folder_ / "r" / "report.csv");
+  EXPECT_EQ(csv.substr(0, 10), "# Vulkan: ");
+  EXPECT_NE(csv.find(", commit "), std::string::npos);
   for (const char* name : {"report.md", "report.html", "report.csv", "sphere-80-phong.svg",
                            "sphere-80-phong.png", "sphere-80-phong-thesis.png"}) {
     EXPECT_GT(std::filesystem::file_size(folder_ / "r" / name), 500U) << name;
@@ -223,6 +227,7 @@ TEST_F(Program, ReportsSpeedAgainstError) {
     if (family.rfind("robust", 0) != 0) continue;
     EXPECT_LT(one["rms"].get<double>(), 1e-6);
     EXPECT_EQ(one["wrong_hits"].get<int>() + one["missed"].get<int>(), 0);
+    EXPECT_GT(one["bytes_read"].get<uint64_t>(), 0U);
     robust_on_front = robust_on_front || one["on_front"].get<bool>();
   }
   // Nothing else is as exact, so the fastest of its ways, whichever that was, is dominated by none.

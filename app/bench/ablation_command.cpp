@@ -8,6 +8,7 @@
 #include "app/bench/ablation.h"
 #include "app/bench/document.h"
 #include "app/bench/gnuplot.h"
+#include "app/bench/provenance.h"
 #include "app/bench/report_files.h"
 #include "app/commands.h"
 #include "app/error.h"
@@ -126,9 +127,11 @@ int bench_ablation(const AblationOptions& options) {
     }
   }
   const std::string title = "What each step is worth";
-  const std::string facts = fmt::format(
-      "{}, {}, {}x{} pixels, {} frames each after a warm-up, in turns", device.report().name,
-      device.report().driver, options.width, options.height, options.runs);
+  const std::vector<std::string> facts{
+      fmt::format("{}, {}", device.report().name, device.report().driver),
+      bench::program_and_date(),
+      fmt::format("{}x{} pixels, {} frames each after a warm-up, in turns", options.width,
+                  options.height, options.runs)};
   std::vector<bench::Block> report{
       bench::Heading{1, title},
       bench::Paragraph{
@@ -137,7 +140,7 @@ int bench_ablation(const AblationOptions& options) {
           "report of speed against error; each shell is judged by its own surface. Evaluations are "
           "of the field (bisection) or of the surface with its derivatives (robust); candidates "
           "are the triangles or parts that a ray is tried on."},
-      bench::Items{{facts}}};
+      bench::Items{facts}};
   for (const Ablation& ablation : ablations) {
     const std::string name = name_of(ablation);
     folder.plot(name, [&](const std::string& terminal, const std::string& file) {

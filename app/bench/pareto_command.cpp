@@ -1,8 +1,5 @@
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <chrono>
-#include <ctime>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -15,6 +12,7 @@
 #include "app/bench/hard_case_table.h"
 #include "app/bench/pareto.h"
 #include "app/bench/pareto_report.h"
+#include "app/bench/provenance.h"
 #include "app/bench/report_files.h"
 #include "app/commands.h"
 #include "app/error.h"
@@ -33,13 +31,12 @@ using bench::Block;
 
 std::vector<std::string> provenance(const gpu::Device& device, const opengl::Context& context,
                                     const ParetoOptions& options) {
-  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   return {fmt::format("Vulkan: {}, {}", device.report().name, device.report().driver),
           fmt::format("OpenGL: {}, {}", context.device(), context.driver()),
           fmt::format("CPU: {} threads", std::thread::hardware_concurrency()),
-          fmt::format("trisect {}, compiled by {}", TRISECT_VERSION, TRISECT_COMPILER),
-          fmt::format("{}x{} pixels, {} frames each after a warm-up, in turns, {:%Y-%m-%d}",
-                      options.width, options.height, options.runs, fmt::gmtime(now))};
+          bench::program_and_date(),
+          fmt::format("{}x{} pixels, {} frames each after a warm-up, in turns", options.width,
+                      options.height, options.runs)};
 }
 
 std::vector<Block> report_of(const std::vector<bench::Scene>& scenes,
@@ -117,7 +114,8 @@ int bench_pareto(const ParetoOptions& options) {
     write_png(comparison_picture(scene.truth, scene.thesis), picture);
     picture.commit();
   }
-  folder.write("report.csv", bench::csv_of(scenes));
+  folder.write("report.csv",
+               fmt::format("# {}\n{}", fmt::join(facts, "\n# "), bench::csv_of(scenes)));
   folder.write("report.json", json_text({{"facts", facts}, {"scenes", bench::json_of(scenes)}}));
   const std::vector<Block> report = report_of(scenes, facts, hard);
   folder.write("report.md", bench::markdown_of(report));

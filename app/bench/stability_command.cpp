@@ -7,6 +7,7 @@
 
 #include "app/bench/document.h"
 #include "app/bench/gnuplot.h"
+#include "app/bench/provenance.h"
 #include "app/bench/report_files.h"
 #include "app/bench/stability.h"
 #include "app/commands.h"
@@ -109,6 +110,7 @@ int bench_stability(const StabilityOptions& options) {
   const bench::ReportFolder folder(options.output);
   const std::vector<StabilityAxis> axes = bench::measure_stability(options.rays);
   const std::string title = "Numerical stability";
+  const std::string program = bench::program_and_date();
   std::vector<bench::Block> report{
       bench::Heading{1, title},
       bench::Paragraph{fmt::format(
@@ -120,7 +122,7 @@ int bench_stability(const StabilityOptions& options) {
           "its own surface. Where it is not varied the angle is 50 degrees; distance, scale and "
           "grazing are of a sphere of 80 patches, the others of one patch.",
           options.rays)},
-      bench::Picture{"stability.svg", "Errors over what is varied"}};
+      bench::Items{{program}}, bench::Picture{"stability.svg", "Errors over what is varied"}};
   for (const StabilityAxis& axis : axes) {
     report.emplace_back(bench::Heading{2, axis.what});
     report.emplace_back(table_of(axis));
@@ -129,7 +131,7 @@ int bench_stability(const StabilityOptions& options) {
     return plot_script(axes, terminal, file);
   });
   folder.write("stability.csv", csv_of(axes));
-  folder.write("stability.json", json_text({{"curves", json_of(axes)}}));
+  folder.write("stability.json", json_text({{"program", program}, {"curves", json_of(axes)}}));
   folder.write("stability.md", bench::markdown_of(report));
   folder.write("stability.html", bench::html_of(title, report, folder.path()));
   fmt::print("{}\n", (folder.path() / "stability.md").string());
