@@ -1,6 +1,6 @@
 #!/bin/bash
 # Writes docs/report: `trisect bench pareto` and `bench ablation` on both drivers, the hard cases and the stability. Some
-# twenty minutes; with --quick two, into build/report, which is only for looking.
+# fifteen minutes on two quiet cores; with --quick two, into build/report, which is only for looking.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . scripts/measure.sh
@@ -38,7 +38,7 @@ build/release/trisect bench stability -o "$to/stability"
 
 # What all of them say, and the way to each.
 {
-  printf '# Speed against error\n\nWritten by `scripts/report.sh`. Each part has its own report, with plots and tables.\n'
+  printf '# Speed against error\n\nWritten by `scripts/report.sh`. Each part has its own report, with plots and tables.\n\nThe thesis has a Rank to vary, flat triangles their number. The robust solver has nothing of that kind: it ends within\nroundings of the first root, or has proven that there is none.\n'
   for part in mesa-25-phong mesa-25-sphere mesa-22-phong mesa-22-sphere; do
     printf '\n## [%s](%s/report.md)\n\n' "$part" "$part"
     sed -nE '/^## Hard cases/d; s/^## (.*)/\n### \1\n/p; /^- /p' "$to/$part/report.md"
