@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <new>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -187,6 +188,32 @@ std::vector<BvhEntry> build_bvh(const BakedScene& scene) {
     flatten(only, 0, BVH_END, bvh);
   } else {
     flatten(*root, 0, BVH_END, bvh);
+  }
+  return bvh;
+}
+
+std::optional<std::vector<BvhEntry>> refitted_bvh(const BakedScene& scene,
+                                                  const BakedScene& other) {
+  const bool same_parts =
+      std::equal(scene.cages.begin(), scene.cages.end(), other.cages.begin(), other.cages.end(),
+                 [](const Cage& a, const Cage& b) { return a.skip == b.skip; });
+  if (other.bvh.empty() || !same_parts) return std::nullopt;
+  const std::vector<PartBox> boxes = part_boxes(scene);
+  std::vector<BvhEntry> bvh = other.bvh;
+  // What lies below an entry comes after it.
+  for (std::size_t i = bvh.size(); i-- > 0;) {
+    BvhEntry& entry = bvh[i];
+    if (entry.link == BVH_NOTHING) continue;
+    if (entry.link >= BVH_PART) {
+      set_box(entry, boxes[entry.link - BVH_PART]);
+      continue;
+    }
+    PartBox all = no_box();
+    for (const BvhEntry& child : std::span(bvh).subspan(entry.link, kChildren)) {
+      all =
+          around(all, {{child.lo_x, child.lo_y, child.lo_z}, {child.hi_x, child.hi_y, child.hi_z}});
+    }
+    set_box(entry, all);
   }
   return bvh;
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "app/cage.h"
 #include "app/part_boxes.h"
@@ -90,6 +91,40 @@ TEST(Bvh, HoldsPatchesThatLieInOnePlace) {
   std::fill(scene.triangles.begin(), scene.triangles.end(), scene.triangles[0]);
   scene.cages = bake_cages(scene);
   expect_all_parts_once(build_bvh(scene), scene);
+}
+
+// The tree of one surface serves another one where patches are divided alike.
+TEST(Bvh, IsRefittedToAnotherSurface) {
+  BakedScene first = scene_of("torus", {SURFACE_PHONG, 0.65, SHELL_NORMAL});
+  first.bvh = build_bvh(first);
+  for (const SurfaceChoice& choice : {SurfaceChoice{SURFACE_PHONG, 0.6, SHELL_NORMAL},
+                                      SurfaceChoice{SURFACE_PHONG, 0.65, SHELL_HEIGHT}}) {
+    const BakedScene scene = scene_of("torus", choice);
+    const auto bvh = refitted_bvh(scene, first);
+    ASSERT_TRUE(bvh.has_value());
+    expect_all_parts_once(*bvh, scene);
+    // No box is larger than what it has to contain.
+    const std::vector<BvhEntry> built = build_bvh(scene);
+    const auto all_of = [](const std::vector<BvhEntry>& tree) {
+      glm::vec3 lo(1e30F);
+      glm::vec3 hi(-1e30F);
+      for (uint32_t k = 0; k < kChildren; ++k) {
+        if (tree[k].link == BVH_NOTHING) continue;
+        lo = glm::min(lo, lo_of(tree[k]));
+        hi = glm::max(hi, hi_of(tree[k]));
+      }
+      return std::pair(lo, hi);
+    };
+    EXPECT_EQ(all_of(*bvh), all_of(built));
+  }
+}
+
+TEST(Bvh, IsNotRefittedToOtherParts) {
+  BakedScene first = scene_of("teapot", {SURFACE_PHONG, 0.65, SHELL_NORMAL});
+  const BakedScene flat = scene_of("teapot", {SURFACE_FLAT, 0.0, SHELL_NORMAL});
+  EXPECT_FALSE(refitted_bvh(flat, first).has_value()) << "there is no tree";
+  first.bvh = build_bvh(first);
+  EXPECT_FALSE(refitted_bvh(flat, first).has_value()) << "flat patches are not divided";
 }
 
 TEST(Bvh, BoxesContainTheSurface) {

@@ -13,16 +13,24 @@
 namespace trisect::view {
 namespace {
 
+// before: what the same mesh looked like, if the mesh is there.
 std::variant<ViewedScene, LoadFailure> load(const SceneRequest& request,
-                                            std::shared_ptr<const Mesh> mesh, std::string said) {
+                                            std::shared_ptr<const Mesh> mesh,
+                                            const std::shared_ptr<const BakedScene>& before,
+                                            std::string said) {
   try {
-    if (!mesh) {
+    const bool is_known = mesh != nullptr;
+    if (!is_known) {
       BuiltMesh built = build_mesh(read_obj(request.model), request.model, request.crease);
       said = describe(built.report);
       mesh = std::make_shared<const Mesh>(std::move(built.mesh));
     }
     BakedScene scene = bake_with_cages(*mesh, request.choice);
-    if (request.tree) scene.bvh = build_bvh(scene);
+    if (request.tree) {
+      std::optional<std::vector<BvhEntry>> bvh;
+      if (is_known) bvh = refitted_bvh(scene, *before);
+      scene.bvh = bvh ? std::move(*bvh) : build_bvh(scene);
+    }
     return ViewedScene{request, std::move(mesh),
                        std::make_shared<const BakedScene>(std::move(scene)), std::move(said)};
   } catch (const std::bad_alloc&) {
@@ -43,7 +51,8 @@ void SceneLoader::ask(const SceneRequest& request) {
   }
   const bool same_mesh =
       mesh_ && mesh_request_.model == request.model && mesh_request_.crease == request.crease;
-  running_ = std::async(std::launch::async, load, request, same_mesh ? mesh_ : nullptr, said_);
+  running_ =
+      std::async(std::launch::async, load, request, same_mesh ? mesh_ : nullptr, scene_, said_);
 }
 
 std::optional<SceneLoader::Result> SceneLoader::poll() {
@@ -54,6 +63,7 @@ std::optional<SceneLoader::Result> SceneLoader::poll() {
   Result result = running_.get();
   if (const auto* loaded = std::get_if<ViewedScene>(&result)) {
     mesh_ = loaded->mesh;
+    scene_ = loaded->scene;
     mesh_request_ = loaded->request;
     said_ = loaded->said;
   }

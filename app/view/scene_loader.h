@@ -45,6 +45,7 @@ class SceneLoader {
   void keep(const ViewedScene& scene) {
     asked_ = scene.request;
     mesh_ = scene.mesh;
+    scene_ = scene.scene;
     mesh_request_ = scene.request;
     said_ = scene.said;
   }
@@ -66,6 +67,7 @@ class SceneLoader {
   std::optional<SceneRequest> asked_;
   std::optional<SceneRequest> waiting_;
   std::shared_ptr<const Mesh> mesh_;  // of the last model that was read
+  std::shared_ptr<const BakedScene> scene_;
   SceneRequest mesh_request_;
   std::string said_;
   std::future<Result> running_;
