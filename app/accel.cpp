@@ -24,6 +24,8 @@ const char* accel_name(Accel accel) {
       return "tiles";
     case Accel::bvh:
       return "bvh";
+    case Accel::rayquery:
+      return "rayquery";
     default:
       return "list";
   }
@@ -52,7 +54,8 @@ Accel chosen_accel(const RenderOptions& options, Backend backend, std::size_t pa
 }
 
 bool goes_by_bvh(const RenderOptions& options, Accel accel) {
-  return accel == Accel::bvh || (options.shadows && accel == Accel::tiles);
+  return accel == Accel::bvh || accel == Accel::rayquery ||
+         (options.shadows && accel == Accel::tiles);
 }
 
 Accel accel_at_hand(const RenderOptions& options, const BakedScene& scene) {

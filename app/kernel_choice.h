@@ -7,9 +7,10 @@ namespace trisect {
 
 // Which patches a ray is tried against.
 enum class Accel {
-  list,   // all of them
-  tiles,  // those that its tile of the image touches: primary rays, robust solver
-  bvh,    // those in whose boxes it comes: robust solver, needs the scene's bvh
+  list,      // all of them
+  tiles,     // those that its tile of the image touches: primary rays, robust solver
+  bvh,       // those in whose boxes it comes: robust solver, needs the scene's bvh
+  rayquery,  // the same by the device's own structure over the boxes, if it has ray queries
 };
 
 struct KernelChoice {

@@ -20,6 +20,7 @@ namespace {
 #include "trace_list.spv.h"
 #include "trace_packets.spv.h"
 #include "trace_packets_at.spv.h"
+#include "trace_query.spv.h"
 #include "trace_tiles.spv.h"
 #include "trace_undecided.spv.h"
 #include "view_parts.spv.h"
@@ -47,6 +48,7 @@ const std::span<const uint32_t> kSearchPacketsSpirv(search_packets_spirv);
 const std::span<const uint32_t> kSearchPacketsAtSpirv(search_packets_at_spirv);
 const std::span<const uint32_t> kTraceBvhSpirv(trace_bvh_spirv);
 const std::span<const uint32_t> kTraceBvhAtSpirv(trace_bvh_at_spirv);
+const std::span<const uint32_t> kTraceQuerySpirv(trace_query_spirv);
 const std::span<const uint32_t> kFloorSpirv(floor_spirv);
 const std::span<const uint32_t> kScreenVertSpirv(screen_vert_spirv);
 const std::span<const uint32_t> kScreenFragSpirv(screen_frag_spirv);

@@ -23,6 +23,7 @@ extern const std::span<const uint32_t> kTraceBvhSpirv;
 extern const std::span<const uint32_t> kTracePacketsAtSpirv;
 extern const std::span<const uint32_t> kSearchPacketsAtSpirv;
 extern const std::span<const uint32_t> kTraceBvhAtSpirv;
+extern const std::span<const uint32_t> kTraceQuerySpirv;
 extern const std::span<const uint32_t> kFloorSpirv;
 // Of the window that shows a frame.
 extern const std::span<const uint32_t> kScreenVertSpirv;

@@ -36,7 +36,7 @@ RayCaster::RayCaster(const gpu::Device& device, const BakedScene& scene, const T
       commands_(device),
       staging_(device, kBatchBytes),
       params_(device, sizeof(TraceParams), gpu::Memory::device, "trace parameters"),
-      scene_(device, scene, device.limits().maxStorageBufferRange, false),
+      scene_(device, scene, device.limits().maxStorageBufferRange, SceneBuffers::ByAddress::never),
       rays_(device, kBatch * sizeof(CastRay), gpu::Memory::device, "rays"),
       hits_(device, kBatch * sizeof(CastHit), gpu::Memory::device, "hits"),
       queue_(device, kBatch, steps),

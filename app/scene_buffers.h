@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "app/bake.h"
+#include "vk/box_structure.h"
 #include "vk/buffer.h"
 #include "vk/commands.h"
 
@@ -12,17 +14,28 @@ namespace trisect {
 
 class SceneBuffers {
  public:
-  // limit: the most bytes of a buffer that is bound. If one of the scene's has more and the kernels
-  // have a variant for that, `addressable`, all of them are reached by their addresses. Throws
-  // gpu::Error, naming the device, if it cannot hold the scene.
+  // Whether kernels reach the buffers by their addresses.
+  enum class ByAddress {
+    never,
+    if_large,  // if one of them has more than `limit` bytes, the most of a buffer that is bound
+    always,
+  };
+
+  // Throws gpu::Error, naming the device, if it cannot hold the scene.
   SceneBuffers(const gpu::Device& device, const BakedScene& scene, std::size_t limit,
-               bool addressable);
+               ByAddress by_address);
 
   void upload(gpu::Staging& staging, gpu::Commands& commands, const BakedScene& scene);
 
+  // Also builds the device's own structure over the parts' boxes. Of buffers with addresses, on a
+  // device with ray queries.
+  void build_boxes(const gpu::Device& device, gpu::Staging& staging, gpu::Commands& commands,
+                   const BakedScene& scene);
+
   // Of all of them.
   [[nodiscard]] std::size_t bytes() const {
-    return triangles_.size() + cages_.size() + bvh_.size() + addresses_.size();
+    return triangles_.size() + cages_.size() + bvh_.size() + addresses_.size() +
+           (boxes_ ? boxes_->bytes() : 0);
   }
 
   [[nodiscard]] bool by_address() const { return by_address_; }
@@ -47,6 +60,7 @@ class SceneBuffers {
   gpu::Buffer bvh_;
   gpu::Buffer addresses_;
   gpu::Buffer unused_;
+  std::unique_ptr<gpu::BoxStructure> boxes_;
 };
 
 }  // namespace trisect

@@ -18,7 +18,7 @@ void add_gl_path(CLI::App& command, std::optional<std::string>& text) {
 
 // None of the name auto.
 std::optional<Accel> accel_of(const std::string& name) {
-  for (const Accel accel : {Accel::list, Accel::tiles, Accel::bvh}) {
+  for (const Accel accel : {Accel::list, Accel::tiles, Accel::bvh, Accel::rayquery}) {
     if (name == accel_name(accel)) return accel;
   }
   return std::nullopt;
@@ -64,9 +64,10 @@ void add_view(CLI::App& command, RenderOptions& options, SceneText& text) {
       .add_option(
           "--accel", text.accel,
           "What a ray is tried against: list (every patch, the thesis's), tiles (those "
-          "that its tile of the image touches), bvh (those that a tree of boxes finds; both "
+          "that its tile of the image touches), bvh (those that a tree of boxes finds), rayquery "
+          "(those that the device's own structure finds, where it has ray queries; all three "
           "vulkan, robust) or auto, default auto")
-      ->check(one_of({"list", "tiles", "bvh", "auto"}))
+      ->check(one_of({"list", "tiles", "bvh", "rayquery", "auto"}))
       ->type_name("NAME");
   command
       .add_option("--preset", text.preset,

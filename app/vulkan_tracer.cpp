@@ -37,6 +37,16 @@ std::optional<TileLists> lists_for(const gpu::Device& device, const BakedScene& 
                                   static_cast<uint32_t>(scene.cages.size()), width, band_rows);
 }
 
+SceneBuffers::ByAddress reach_for(const gpu::Device& device, Accel accel) {
+  if (accel == Accel::rayquery && !device.has_ray_query()) {
+    throw gpu::Error(device.report().name +
+                     " lacks the ray queries of --accel rayquery; use --accel bvh.");
+  }
+  return accel == Accel::bvh        ? SceneBuffers::ByAddress::if_large
+         : accel == Accel::rayquery ? SceneBuffers::ByAddress::always
+                                    : SceneBuffers::ByAddress::never;
+}
+
 struct NamedKernel {
   std::span<const uint32_t> spirv;
   const char* name;
@@ -60,6 +70,8 @@ std::vector<NamedKernel> kernel_names(const gpu::Device& device, Accel accel, bo
       return {
           {kTracePacketsSpirv, "trace_packets"}, {kSearchPacketsSpirv, "search_packets"}, alone};
     }
+    case Accel::rayquery:
+      return {{kTraceQuerySpirv, "trace_query"}, {kTraceBvhAtSpirv, "trace_bvh_at"}};
     default:
       return {{kTraceListSpirv, "trace_list"}};
   }
@@ -83,7 +95,7 @@ std::vector<gpu::Kernel> shadow_kernels_for(const gpu::Device& device, const Bak
   if (!choice.shadows) return {};
   std::vector<gpu::Specialization> constants = constants_of(scene, choice);
   constants.push_back({CONSTANT_SHADOWS, 1U});
-  const Accel accel = choice.accel == Accel::list ? Accel::list : Accel::bvh;
+  const Accel accel = choice.accel == Accel::tiles ? Accel::bvh : choice.accel;
   return kernels_for(device, accel, by_address, constants, code);
 }
 
@@ -108,7 +120,7 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
       buffer_limit_(std::min<std::size_t>(buffer_limit, device.limits().maxStorageBufferRange)),
       band_rows_(rows_in_a_band(device.report().name, buffer_limit_, width, height, writes_aovs_)),
       tiles_(lists_for(device, scene, choice, code, width, band_rows_)),
-      scene_(device, scene, buffer_limit_, choice.accel == Accel::bvh),
+      scene_(device, scene, buffer_limit_, reach_for(device, choice.accel)),
       kernels_(kernels_for(device, choice.accel, scene_.by_address(), constants_of(scene, choice),
                            code)),
       shadow_kernels_(shadow_kernels_for(device, scene, choice, scene_.by_address(), code)),
@@ -120,6 +132,9 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
       bound_(bind()) {
   const Stopwatch watch;
   scene_.upload(staging_, commands_, scene);
+  if (choice.accel == Accel::rayquery) {
+    scene_.build_boxes(device, staging_, commands_, scene);
+  }
   upload_ms_ = watch.milliseconds();
 }
 

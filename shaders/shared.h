@@ -78,8 +78,12 @@ struct Addresses {
   uint cages_high;
   uint bvh_low;
   uint bvh_high;
+  uint boxes_low;  // of the device's own structure over the parts' boxes
+  uint boxes_high;
+  float reach;  // no part is farther from the scene's origin
   uint padding0;
   uint padding1;
+  uint padding2;
 };
 
 // One frame's constants. Rays leave the eye; near(x, y) = eye + ray_corner + x ray_dx + y ray_dy is

@@ -1,8 +1,8 @@
 // Accelerations change the time of a frame, not a bit of it.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cstring>
+#include <vector>
 
 #include "app/accel.h"
 #include "app/bvh.h"
@@ -18,7 +18,12 @@ namespace {
 
 class Acceleration : public test::GpuTest {};
 
-constexpr std::array kFast{Accel::tiles, Accel::bvh};
+// Those beside the list that the device has.
+std::vector<Accel> fast_ways() {
+  std::vector<Accel> ways{Accel::tiles, Accel::bvh};
+  if (test::validated_device().has_ray_query()) ways.push_back(Accel::rayquery);
+  return ways;
+}
 
 Frame trace(const BakedScene& scene, const TraceSettings& settings, Accel accel,
             std::size_t buffer_limit = std::numeric_limits<std::size_t>::max()) {
@@ -51,14 +56,14 @@ void expect_all_equal(BakedScene scene, const TraceSettings& settings, const std
                       std::size_t buffer_limit = std::numeric_limits<std::size_t>::max()) {
   scene.bvh = build_bvh(scene);
   const Frame list = trace(scene, settings, Accel::list);
-  for (const Accel accel : kFast) {
+  for (const Accel accel : fast_ways()) {
     expect_equal(list, trace(scene, settings, accel, buffer_limit), what + " " + accel_name(accel));
   }
 }
 
 // The image's sides are no multiples of a tile's.
 TraceSettings small(const Mesh& mesh, const BakedScene& scene) {
-  TraceSettings settings = test::framed(mesh, scene, 67, 51, 10);
+  TraceSettings settings = test::framed(mesh, scene, 59, 43, 10);
   settings.solver = SOLVER_ROBUST;
   return settings;
 }
@@ -115,9 +120,25 @@ TEST_F(Acceleration, WorksInEveryBandOfAnImage) {
   const Mesh mesh = test::load_asset("sphere-80");
   const BakedScene scene = bake_with_cages(mesh, {SURFACE_FLAT, 0.0, SHELL_NORMAL});
   const TraceSettings settings = small(mesh, scene);
-  // Eight rows of 67 pixels of 48 bytes: seven bands.
+  // Eight rows of 59 pixels of 48 bytes: six bands.
   constexpr std::size_t limit = 26000;
   expect_all_equal(scene, settings, "", limit);
+}
+
+TEST_F(Acceleration, OfTheDevicesOwnIsThereOrRefused) {
+  BakedScene scene =
+      bake_with_cages(test::load_asset("sphere-20"), {SURFACE_PHONG, 0.65, SHELL_NORMAL});
+  scene.bvh = build_bvh(scene);
+  const KernelChoice choice{.solver = SOLVER_ROBUST, .accel = Accel::rayquery};
+  if (test::validated_device().has_ray_query()) {
+    const VulkanTracer tracer(test::validated_device(), scene, 8, 8, choice);
+    // Its structure counts, beside the boxes that it is made of.
+    EXPECT_GT(tracer.scene_bytes(), scene.triangles.size() * sizeof(Triangle) +
+                                        scene.cages.size() * (sizeof(Cage) + 24) +
+                                        scene.bvh.size() * sizeof(BvhEntry));
+  } else {
+    EXPECT_THROW(VulkanTracer(test::validated_device(), scene, 8, 8, choice), gpu::Error);
+  }
 }
 
 // Buffers that may not be bound, here for a limit of less than the model takes.

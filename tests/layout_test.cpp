@@ -128,8 +128,12 @@ TEST(Layout, Addresses) {
                                    {"cages_high", offsetof(Addresses, cages_high)},
                                    {"bvh_low", offsetof(Addresses, bvh_low)},
                                    {"bvh_high", offsetof(Addresses, bvh_high)},
+                                   {"boxes_low", offsetof(Addresses, boxes_low)},
+                                   {"boxes_high", offsetof(Addresses, boxes_high)},
+                                   {"reach", offsetof(Addresses, reach)},
                                    {"padding0", offsetof(Addresses, padding0)},
-                                   {"padding1", offsetof(Addresses, padding1)}}));
+                                   {"padding1", offsetof(Addresses, padding1)},
+                                   {"padding2", offsetof(Addresses, padding2)}}));
 }
 
 TEST(Layout, TraceParams) {

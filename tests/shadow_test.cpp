@@ -20,6 +20,7 @@
 #include "tests/support/frame_difference.h"
 #include "tests/support/gpu.h"
 #include "tests/support/scenes.h"
+#include "vk/result.h"
 
 namespace trisect {
 namespace {
@@ -97,6 +98,16 @@ TEST_F(Shadows, AreThoseOfTheListByEveryWay) {
     Frame cpu;
     trace_on_cpu(lit.scene, lit.params, with_shadows(Accel::list), cpu, [](uint32_t) {});
     EXPECT_EQ(count_different(cpu, list), 0U) << what;
+  }
+}
+
+TEST_F(Shadows, AreThoseOfTheTreeByRayQueries) {
+  const Lit lit = lit_from_side(test::load_asset("teapot"), kPhong, 96, 72);
+  const auto ours = [&] { return trace(lit, with_shadows(Accel::rayquery)); };
+  if (test::validated_device().has_ray_query()) {
+    EXPECT_TRUE(same_colors(trace(lit, with_shadows(Accel::bvh)), ours()));
+  } else {
+    EXPECT_THROW(ours(), gpu::Error);
   }
 }
 

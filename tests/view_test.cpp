@@ -235,9 +235,9 @@ TEST_F(View, IsMinimisedRestoredAndClosed) {
   ASSERT_EQ(done.exit_code, 0) << done.out << done.err;
 }
 
-// Four seconds are two hundred frames of a window that draws all the time.
+// Three seconds are a hundred frames of a window that draws all the time.
 TEST_F(View, DrawsNothingAtRest) {
-  const test::ProgramRun run = view("5 quit\n");
+  const test::ProgramRun run = view("3 quit\n");
   ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
   const int frames = stats()["frames"].get<int>();
   EXPECT_GE(frames, 3);

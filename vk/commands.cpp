@@ -50,6 +50,23 @@ void Commands::dispatch(const Kernel& kernel, const BoundBuffers& buffers,
   vkCmdDispatch(commands_.get(), groups_x, groups_y, 1);
 }
 
+void Commands::build(const VkAccelerationStructureBuildGeometryInfoKHR& info,
+                     const VkAccelerationStructureBuildRangeInfoKHR& range) {
+  // It reads what was copied and built before, and kernels of later submits read it. Builds are
+  // rare: they wait for everything, and everything for them.
+  const auto order = [&] {
+    VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
+    barrier.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
+    barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
+    constexpr VkPipelineStageFlags all = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+    vkCmdPipelineBarrier(commands_.get(), all, all, 0, 1, &barrier, 0, nullptr, 0, nullptr);
+  };
+  const VkAccelerationStructureBuildRangeInfoKHR* const ranges = &range;
+  order();
+  device_->structures().build(commands_.get(), 1, &info, &ranges);
+  order();
+}
+
 void Commands::clear(const Buffer& buffer) {
   // What it held may still be read.
   order_after_writes();

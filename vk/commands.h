@@ -22,6 +22,10 @@ class Commands {
   void dispatch(const Kernel& kernel, const BoundBuffers& buffers, std::span<const std::byte> push,
                 uint32_t groups_x, uint32_t groups_y = 1);
 
+  // Builds an acceleration structure of one geometry.
+  void build(const VkAccelerationStructureBuildGeometryInfoKHR& info,
+             const VkAccelerationStructureBuildRangeInfoKHR& range);
+
   // Sets all bytes of a buffer to 0.
   void clear(const Buffer& buffer);
 

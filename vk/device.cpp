@@ -1,6 +1,7 @@
 #include "vk/device.h"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 #include <vector>
 
@@ -30,6 +31,39 @@ bool can_address_buffers(VkPhysicalDevice device) {
   features.pNext = &addresses;
   vkGetPhysicalDeviceFeatures2(device, &features);
   return addresses.bufferDeviceAddress == VK_TRUE;
+}
+
+// What ray queries take beside the addresses of buffers, on a device of Vulkan 1.1.
+constexpr std::array kQueryExtensions{VK_KHR_RAY_QUERY_EXTENSION_NAME,
+                                      VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
+                                      VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
+                                      VK_EXT_DESCRIPTOR_INDEXING_EXTENSION_NAME,
+                                      VK_KHR_SPIRV_1_4_EXTENSION_NAME,
+                                      VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME};
+
+bool can_query_rays(VkPhysicalDevice device) {
+  const bool has_all =
+      std::all_of(kQueryExtensions.begin(), kQueryExtensions.end(),
+                  [device](const char* name) { return has_extension(device, name); });
+  if (!has_all || !can_address_buffers(device)) return false;
+  VkPhysicalDeviceRayQueryFeaturesKHR queries{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR};
+  VkPhysicalDeviceAccelerationStructureFeaturesKHR structures{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR};
+  structures.pNext = &queries;
+  VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+  features.pNext = &structures;
+  vkGetPhysicalDeviceFeatures2(device, &features);
+  return queries.rayQuery == VK_TRUE && structures.accelerationStructure == VK_TRUE;
+}
+
+VkDeviceSize scratch_alignment_of(VkPhysicalDevice device) {
+  VkPhysicalDeviceAccelerationStructurePropertiesKHR structures{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
+  properties.pNext = &structures;
+  vkGetPhysicalDeviceProperties2(device, &properties);
+  return structures.minAccelerationStructureScratchOffsetAlignment;
 }
 
 // The queue family that computes, draws and shows pictures on the surface, or -1.
@@ -121,6 +155,20 @@ Device::Device(const Instance& instance, const std::string& request, VkSurfaceKH
     info.pNext = &address_features;
     extensions.push_back(kAddressExtension);
   }
+  const bool queries = can_query_rays(physical);
+  VkPhysicalDeviceRayQueryFeaturesKHR query_features{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR};
+  query_features.rayQuery = VK_TRUE;
+  query_features.pNext = &address_features;
+  VkPhysicalDeviceAccelerationStructureFeaturesKHR structure_features{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR};
+  structure_features.accelerationStructure = VK_TRUE;
+  structure_features.pNext = &query_features;
+  if (queries) {
+    info.pNext = &structure_features;
+    for (const char* name : kQueryExtensions) extensions.push_back(name);
+    scratch_alignment_ = scratch_alignment_of(physical);
+  }
   info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
   info.ppEnabledExtensionNames = extensions.data();
   TRISECT_VK(vkCreateDevice(physical, &info, nullptr, &handle_.device));
@@ -136,6 +184,18 @@ Device::Device(const Instance& instance, const std::string& request, VkSurfaceKH
     address_of_ = reinterpret_cast<PFN_vkGetBufferDeviceAddressKHR>(
         vkGetDeviceProcAddr(get(), "vkGetBufferDeviceAddressKHR"));
   }
+  if (queries) load_structure_functions();
+}
+
+void Device::load_structure_functions() {
+  const auto load = [&]<typename Function>(Function& function, const char* name) {
+    function = reinterpret_cast<Function>(vkGetDeviceProcAddr(get(), name));
+  };
+  load(structures_.create, "vkCreateAccelerationStructureKHR");
+  load(structures_.destroy, "vkDestroyAccelerationStructureKHR");
+  load(structures_.get_sizes, "vkGetAccelerationStructureBuildSizesKHR");
+  load(structures_.get_address, "vkGetAccelerationStructureDeviceAddressKHR");
+  load(structures_.build, "vkCmdBuildAccelerationStructuresKHR");
 }
 
 VkDeviceAddress Device::address_of(VkBuffer buffer) const {

@@ -43,6 +43,19 @@ class Device {
   // Only if has_addresses().
   [[nodiscard]] VkDeviceAddress address_of(VkBuffer buffer) const;
 
+  // Whether kernels may look for boxes by the device's own acceleration structures. The others:
+  // only if they may.
+  [[nodiscard]] bool has_ray_query() const { return structures_.create != nullptr; }
+  struct StructureFunctions {
+    PFN_vkCreateAccelerationStructureKHR create = nullptr;
+    PFN_vkDestroyAccelerationStructureKHR destroy = nullptr;
+    PFN_vkGetAccelerationStructureBuildSizesKHR get_sizes = nullptr;
+    PFN_vkGetAccelerationStructureDeviceAddressKHR get_address = nullptr;
+    PFN_vkCmdBuildAccelerationStructuresKHR build = nullptr;
+  };
+  [[nodiscard]] const StructureFunctions& structures() const { return structures_; }
+  [[nodiscard]] VkDeviceSize scratch_alignment() const { return scratch_alignment_; }
+
   // What the driver keeps of the pipelines that were made, for vkCreateComputePipelines.
   [[nodiscard]] VkPipelineCache pipeline_cache() const { return pipeline_cache_.get(); }
   // The same as bytes that another run may add to its own. They are good for a device and a driver
@@ -66,6 +79,7 @@ class Device {
   }
 
  private:
+  void load_structure_functions();
   void name_object(VkObjectType type, uint64_t handle, const std::string& text) const;
 
   // A logical device is destroyed after what it made.
@@ -91,6 +105,8 @@ class Device {
   VkPhysicalDeviceLimits limits_{};
   VkPhysicalDeviceMemoryProperties memory_{};
   PFN_vkSetDebugUtilsObjectNameEXT set_name_ = nullptr;
+  StructureFunctions structures_;
+  VkDeviceSize scratch_alignment_ = 1;
   PFN_vkGetBufferDeviceAddressKHR address_of_ = nullptr;
 };
 

@@ -86,6 +86,9 @@ class Race {
     add_robust(device, "list, robust", list_scene_, Accel::list, bake_ms);
     add_robust(device, "tiles, robust", list_scene_, Accel::tiles, bake_ms);
     add_robust(device, "bvh, robust", scene_, Accel::bvh, bvh_ms);
+    if (device.has_ray_query()) {
+      add_robust(device, "rayquery, robust", scene_, Accel::rayquery, bvh_ms);
+    }
     add_embree();
   }
 

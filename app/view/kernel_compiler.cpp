@@ -28,11 +28,12 @@ struct KernelSource {
   const char* kernel;
   const char* file;
   const char* preamble;
+  bool queries = false;  // rays, which takes SPIR-V 1.4
 };
 
 // As in shaders/CMakeLists.txt.
 constexpr const char* kAddresses = "#define TRISECT_ADDRESSES\n";
-constexpr std::array<KernelSource, 12> kSources{{
+constexpr std::array<KernelSource, 13> kSources{{
     {"trace_list", "trace_list.comp", ""},
     {"view_parts", "view_parts.comp", ""},
     {"bin_parts", "bin_parts.comp", ""},
@@ -45,6 +46,7 @@ constexpr std::array<KernelSource, 12> kSources{{
     {"trace_packets_at", "trace_packets.comp", kAddresses},
     {"search_packets_at", "search_packets.comp", kAddresses},
     {"trace_bvh_at", "trace_bvh.comp", kAddresses},
+    {"trace_query", "trace_query.comp", "", true},
 }};
 
 constexpr int kDefaultVersion = 100;  // of a source that names none
@@ -142,7 +144,8 @@ std::vector<uint32_t> compile(const KernelSource& source, const std::filesystem:
   shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, glslang::EShClientVulkan,
                      kVulkanDialect);
   shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_1);
-  shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
+  shader.setEnvTarget(glslang::EShTargetSpv,
+                      source.queries ? glslang::EShTargetSpv_1_4 : glslang::EShTargetSpv_1_3);
   if (!shader.parse(GetDefaultResources(), kDefaultVersion, false, kMessages, includer)) {
     throw first_error(shader.getInfoLog(), path);
   }

@@ -67,7 +67,7 @@ void choose_model(const Settings& settings, const Facts& facts, Requests& reques
   }
 }
 
-void choose_surface(Settings& settings) {
+void choose_surface(Settings& settings, const Facts& facts) {
   RenderOptions& render = settings.render;
   choose("surface", render.surface, std::array{"flat", "phong", "sphere"});
   if (render.surface == SURFACE_PHONG) slide("alpha", render.alpha, 0.0, 1.0, "%.2f");
@@ -83,7 +83,11 @@ void choose_surface(Settings& settings) {
     return;
   }
   uint accel = render.accel ? 1U + static_cast<uint>(*render.accel) : 0U;
-  choose("accel", accel, std::array{"auto", "list", "tiles", "bvh"});
+  if (facts.ray_query) {
+    choose("accel", accel, std::array{"auto", "list", "tiles", "bvh", "rayquery"});
+  } else {
+    choose("accel", accel, std::array{"auto", "list", "tiles", "bvh"});
+  }
   render.accel = accel == 0U ? std::nullopt : std::optional(static_cast<Accel>(accel - 1U));
   ImGui::Checkbox("shadows", &render.shadows);
 }
@@ -195,7 +199,7 @@ Requests build_panel(Settings& settings, const Facts& facts) {
   choose_model(settings, facts, requests);
   if (!facts.message.empty()) text(facts.message);
   ImGui::Separator();
-  choose_surface(settings);
+  choose_surface(settings, facts);
   choose_light(settings);
   ImGui::Checkbox("orbit", &settings.orbit);
   ImGui::Separator();

@@ -44,8 +44,9 @@ struct Work {
 struct Facts {
   std::string device;
   std::string driver;
-  std::string model;    // in a line
-  std::string message;  // the last one; what failed, or what was done
+  bool ray_query = false;  // of the device
+  std::string model;       // in a line
+  std::string message;     // the last one; what failed, or what was done
   bool loading = false;
   std::vector<std::string> models;  // to choose from
   std::vector<std::string> recent;

@@ -67,6 +67,7 @@ Viewer::Viewer(const ViewOptions& options, std::vector<ScriptStep> script, Windo
   settings_.frame_ms = options.frame_ms;
   facts_.device = device.report().name;
   facts_.driver = device.report().driver;
+  facts_.ray_query = device.has_ray_query();
   facts_.models = models_in(options.assets);
   facts_.recent = recent_.files();
   statistics_.device = facts_.device;
@@ -134,8 +135,8 @@ double Viewer::since_start() const {
 void Viewer::load() {
   const RenderOptions& render = settings_.render;
   // By itself the way may change with the window's size.
-  const bool may_need_tree = render.solver == SOLVER_ROBUST &&
-                             (!render.accel || *render.accel == Accel::bvh || render.shadows);
+  const bool may_need_tree =
+      render.solver == SOLVER_ROBUST && (!render.accel || goes_by_bvh(render, *render.accel));
   loader_.ask(
       {render.model, render.crease, {render.surface, render.alpha, render.shell}, may_need_tree});
 }

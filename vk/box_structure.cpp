@@ -1,0 +1,136 @@
+#include "vk/box_structure.h"
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "vk/result.h"
+
+namespace trisect::gpu {
+namespace {
+
+// One level's geometry, as building it takes it.
+struct Build {
+  explicit Build(VkAccelerationStructureTypeKHR type) {
+    info.type = type;
+    info.flags = VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
+    info.mode = VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR;
+    info.geometryCount = 1;
+  }
+
+  VkAccelerationStructureGeometryKHR geometry{
+      VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
+  VkAccelerationStructureBuildGeometryInfoKHR info{
+      VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR};
+  uint32_t count = 0;
+};
+
+Build build_of_boxes(VkDeviceAddress boxes, std::size_t count) {
+  Build build(VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR);
+  VkAccelerationStructureGeometryAabbsDataKHR aabbs{
+      VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_AABBS_DATA_KHR};
+  aabbs.data.deviceAddress = boxes;
+  aabbs.stride = sizeof(VkAabbPositionsKHR);
+  build.geometry.geometryType = VK_GEOMETRY_TYPE_AABBS_KHR;
+  build.geometry.geometry.aabbs = aabbs;
+  // A ray looks into a box once.
+  build.geometry.flags = VK_GEOMETRY_NO_DUPLICATE_ANY_HIT_INVOCATION_BIT_KHR;
+  build.count = static_cast<uint32_t>(count);
+  return build;
+}
+
+Build build_of_instances(VkDeviceAddress instances) {
+  Build build(VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR);
+  VkAccelerationStructureGeometryInstancesDataKHR data{
+      VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_INSTANCES_DATA_KHR};
+  data.data.deviceAddress = instances;
+  build.geometry.geometryType = VK_GEOMETRY_TYPE_INSTANCES_KHR;
+  build.geometry.geometry.instances = data;
+  build.count = 1;
+  return build;
+}
+
+VkAccelerationStructureBuildSizesInfoKHR sizes_of(const Device& device, Build& build) {
+  build.info.pGeometries = &build.geometry;
+  VkAccelerationStructureBuildSizesInfoKHR sizes{
+      VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR};
+  device.structures().get_sizes(device.get(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR,
+                                &build.info, &build.count, &sizes);
+  return sizes;
+}
+
+// Waits until it is built.
+void run(const Device& device, Commands& commands, Build& build,
+         VkAccelerationStructureKHR structure) {
+  const VkDeviceSize alignment = device.scratch_alignment();
+  const Buffer scratch(device, sizes_of(device, build).buildScratchSize + alignment,
+                       Memory::addressed, "scratch");
+  build.info.pGeometries = &build.geometry;
+  build.info.dstAccelerationStructure = structure;
+  build.info.scratchData.deviceAddress =
+      (scratch.address() + alignment - 1) / alignment * alignment;
+  const VkAccelerationStructureBuildRangeInfoKHR range{build.count, 0, 0, 0};
+  commands.begin();
+  commands.build(build.info, range);
+  commands.submit_and_wait();
+}
+
+}  // namespace
+
+BoxStructure::Level::Level(const Device& its_device, VkAccelerationStructureTypeKHR type,
+                           std::size_t size, const char* name)
+    : device(its_device), buffer(its_device, size, Memory::addressed, name) {
+  VkAccelerationStructureCreateInfoKHR info{
+      VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_CREATE_INFO_KHR};
+  info.buffer = buffer.get();
+  info.size = size;
+  info.type = type;
+  TRISECT_VK(device.structures().create(device.get(), &info, nullptr, &structure));
+  device.name(VK_OBJECT_TYPE_ACCELERATION_STRUCTURE_KHR, structure, name);
+  VkAccelerationStructureDeviceAddressInfoKHR of{
+      VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR};
+  of.accelerationStructure = structure;
+  address = device.structures().get_address(device.get(), &of);
+}
+
+BoxStructure::Level::~Level() {
+  device.structures().destroy(device.get(), structure, nullptr);
+}
+
+namespace {
+
+std::size_t bottom_size(const Device& device, std::size_t boxes) {
+  Build build = build_of_boxes(0, boxes);
+  return sizes_of(device, build).accelerationStructureSize;
+}
+
+std::size_t top_size(const Device& device) {
+  Build build = build_of_instances(0);
+  return sizes_of(device, build).accelerationStructureSize;
+}
+
+}  // namespace
+
+BoxStructure::BoxStructure(const Device& device, Staging& staging, Commands& commands,
+                           std::span<const VkAabbPositionsKHR> boxes)
+    : bottom_(device, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR,
+              bottom_size(device, boxes.size()), "boxes"),
+      top_(device, VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, top_size(device),
+           "the scene of boxes") {
+  const Buffer input(device, boxes.size_bytes(), Memory::addressed, "corners of boxes");
+  staging.upload(commands, std::as_bytes(boxes), input);
+  Build bottom = build_of_boxes(input.address(), boxes.size());
+  run(device, commands, bottom, bottom_.structure);
+
+  VkAccelerationStructureInstanceKHR instance{};
+  for (uint32_t k = 0; k < 3; ++k) instance.transform.matrix[k][k] = 1.0F;
+  instance.mask = 0xFF;
+  instance.accelerationStructureReference = bottom_.address;
+  const Buffer instances(device, sizeof(instance), Memory::addressed, "instance of the boxes");
+  staging.upload(commands, std::as_bytes(std::span(&instance, 1)), instances);
+  Build top = build_of_instances(instances.address());
+  run(device, commands, top, top_.structure);
+}
+
+}  // namespace trisect::gpu
