@@ -20,39 +20,48 @@ namespace {
 
 constexpr uint32_t kChildren = 8;
 
-// What Embree's builder makes: a tree of these, in its own memory.
-struct Branch {
+// What Embree's builder makes: a tree of branches whose leaves are nothing but nodes, in its own
+// memory.
+struct Node {
   uint32_t part = NO_TRIANGLE;  // of a leaf
-  std::array<Branch*, kChildren> children{};
+};
+struct Branch : Node {
+  std::array<Node*, kChildren> children{};
   std::array<PartBox, kChildren> boxes{};
 };
 
-void* new_branch(RTCThreadLocalAllocator allocator) {
-  return new (rtcThreadLocalAlloc(allocator, sizeof(Branch), alignof(Branch))) Branch;
+template <typename T>
+T* make(RTCThreadLocalAllocator allocator) {
+  return new (rtcThreadLocalAlloc(allocator, sizeof(T), alignof(T))) T;
+}
+
+// Embree hands over nodes as they are given to it: as pointers to Node.
+Branch& branch_at(void* node) {
+  return *static_cast<Branch*>(static_cast<Node*>(node));
 }
 
 void* create_node(RTCThreadLocalAllocator allocator, unsigned int, void*) {
-  return new_branch(allocator);
+  return static_cast<Node*>(make<Branch>(allocator));
 }
 
 void set_children(void* node, void** children, unsigned int count, void*) {
   for (unsigned int k = 0; k < count; ++k) {
-    static_cast<Branch*>(node)->children[k] = static_cast<Branch*>(children[k]);
+    branch_at(node).children[k] = static_cast<Node*>(children[k]);
   }
 }
 
 void set_bounds(void* node, const RTCBounds** bounds, unsigned int count, void*) {
   for (unsigned int k = 0; k < count; ++k) {
     const RTCBounds& b = *bounds[k];
-    static_cast<Branch*>(node)->boxes[k] = {{b.lower_x, b.lower_y, b.lower_z},
-                                            {b.upper_x, b.upper_y, b.upper_z}};
+    branch_at(node).boxes[k] = {{b.lower_x, b.lower_y, b.lower_z},
+                                {b.upper_x, b.upper_y, b.upper_z}};
   }
 }
 
 void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives,
                   std::size_t, void*) {
-  void* leaf = new_branch(allocator);
-  static_cast<Branch*>(leaf)->part = primitives->primID;
+  Node* leaf = make<Node>(allocator);
+  leaf->part = primitives->primID;
   return leaf;
 }
 
@@ -132,13 +141,13 @@ void flatten(const Branch& branch, int level, uint32_t next, std::vector<BvhEntr
     entry.link = BVH_NOTHING;
     set_box(entry, no_box());
     if (children[k] != NO_TRIANGLE) {
-      const Branch& child = *branch.children[children[k]];
+      const Node& child = *branch.children[children[k]];
       set_box(entry, branch.boxes[children[k]]);
       if (child.part != NO_TRIANGLE) {
         entry.link = BVH_PART + child.part;
       } else {
         entry.link = static_cast<uint32_t>(bvh.size());
-        flatten(child, level + 1, follows, bvh);
+        flatten(static_cast<const Branch&>(child), level + 1, follows, bvh);
       }
     }
     bvh[first + k] = entry;
@@ -173,7 +182,7 @@ std::vector<BvhEntry> build_bvh(const BakedScene& scene) {
   arguments.setNodeChildren = set_children;
   arguments.setNodeBounds = set_bounds;
   arguments.createLeaf = create_leaf;
-  Branch* root = static_cast<Branch*>(rtcBuildBVH(&arguments));
+  Node* root = static_cast<Node*>(rtcBuildBVH(&arguments));
   if (root == nullptr) {
     throw std::runtime_error("Embree could not build a tree of " +
                              std::to_string(primitives.size()) + " boxes.");
@@ -187,7 +196,7 @@ std::vector<BvhEntry> build_bvh(const BakedScene& scene) {
     only.boxes[0] = boxes[root->part];
     flatten(only, 0, BVH_END, bvh);
   } else {
-    flatten(*root, 0, BVH_END, bvh);
+    flatten(static_cast<const Branch&>(*root), 0, BVH_END, bvh);
   }
   return bvh;
 }

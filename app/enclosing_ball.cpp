@@ -1,5 +1,7 @@
 #include "app/enclosing_ball.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace trisect {
@@ -15,7 +17,17 @@ struct Farthest {
   double reach;
 };
 
-Farthest farthest(const glm::dvec3& center, std::span<const Ball> balls) {
+Farthest farthest(const glm::dvec3& center, std::span<const Ball> balls, bool are_points) {
+  if (are_points) {
+    // One root is enough.
+    Farthest far{balls.data(), -1.0};
+    for (const Ball& ball : balls) {
+      const glm::dvec3 away = center - ball.center;
+      const double square = glm::dot(away, away);
+      if (square > far.reach) far = {&ball, square};
+    }
+    return {far.ball, std::sqrt(far.reach)};
+  }
   Farthest far{balls.data(), reach(center, balls[0])};
   for (const Ball& ball : balls.subspan(1)) {
     const double distance = reach(center, ball);
@@ -32,8 +44,10 @@ Ball enclosing_ball(std::span<const Ball> balls) {
   Ball best{center, std::numeric_limits<double>::infinity()};
   // After k steps the excess is at most of the order of 1/k; on the few points here it is far less.
   constexpr int steps = 32;
+  const bool are_points =
+      std::all_of(balls.begin(), balls.end(), [](const Ball& ball) { return ball.radius == 0.0; });
   for (int k = 1; k <= steps; ++k) {
-    const auto [ball, radius] = farthest(center, balls);
+    const auto [ball, radius] = farthest(center, balls, are_points);
     const Ball& far = *ball;
     if (radius < best.radius) best = {center, radius};
     const double distance = glm::distance(center, far.center);

@@ -15,15 +15,17 @@ seconds() { figure "$1 | . / 10 | round / 100"; }
 
 # One line: a sphere on both drivers. The figures of the plot go into $work/data.
 row() {
-  local model=$work/sphere-$1.obj newer runs=3
+  local model=$work/sphere-$1.obj newer work_done runs=3
   if [ "$1" -gt 1000000 ]; then runs=1; fi
   if [ -f "assets/sphere-$1.obj" ]; then model=assets/sphere-$1.obj; else build/release/make-assets "$work" "sphere-$1"; fi
   measure newer "$model" $runs
   newer=$(ms)
+  measure newer "$model" 1 --evals
+  work_done=$(figure '"\(.evals_total / .width / .height | . * 100 | round / 100) | \(.bytes_read / .width / .height | round)"')
   measure stock "$model" $runs
   echo "$1 $newer $(ms)" >>"$work/data"
   echo "| $1 | $(figure .accel) | $(seconds .load_ms) | $(seconds .bake_ms) | $(seconds '(.bvh_ms // 0)') | $(seconds .upload_ms)" \
-    "| $(figure '.scene_bytes / .patches | round') | $newer | $(ms) |"
+    "| $(figure '.scene_bytes / .patches | round') | $work_done | $newer | $(ms) |"
   rm -f "$work/sphere-$1.obj"
 }
 
@@ -40,9 +42,11 @@ means nothing.
 ![Milliseconds over patches](sizes.svg)
 
 Read is the OBJ file, bake the triangles and their cages, bytes what a patch takes on the device: triangle, cages, tree.
+Evaluations of the surface and bytes read are those of a pixel. With a hundred thousand patches in view their sides are
+of two pixels: the rays of a packet have hardly a patch in common, and each loads its own.
 
-| patches | accel | read, s | bake, s | tree, s | upload, s | bytes | A, ms | B, ms |
-|---|---|---|---|---|---|---|---|---|
+| patches | accel | read, s | bake, s | tree, s | upload, s | bytes | evaluations | bytes read | A, ms | B, ms |
+|---|---|---|---|---|---|---|---|---|---|---|
 END
   for size in "${sizes[@]}"; do row "$size"; done
 } >"$work/sizes.md"

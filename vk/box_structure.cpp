@@ -60,6 +60,16 @@ VkAccelerationStructureBuildSizesInfoKHR sizes_of(const Device& device, Build& b
   return sizes;
 }
 
+std::size_t bottom_size(const Device& device, std::size_t boxes) {
+  Build build = build_of_boxes(0, boxes);
+  return sizes_of(device, build).accelerationStructureSize;
+}
+
+std::size_t top_size(const Device& device) {
+  Build build = build_of_instances(0);
+  return sizes_of(device, build).accelerationStructureSize;
+}
+
 // Waits until it is built.
 void run(const Device& device, Commands& commands, Build& build,
          VkAccelerationStructureKHR structure) {
@@ -97,20 +107,6 @@ BoxStructure::Level::Level(const Device& its_device, VkAccelerationStructureType
 BoxStructure::Level::~Level() {
   device.structures().destroy(device.get(), structure, nullptr);
 }
-
-namespace {
-
-std::size_t bottom_size(const Device& device, std::size_t boxes) {
-  Build build = build_of_boxes(0, boxes);
-  return sizes_of(device, build).accelerationStructureSize;
-}
-
-std::size_t top_size(const Device& device) {
-  Build build = build_of_instances(0);
-  return sizes_of(device, build).accelerationStructureSize;
-}
-
-}  // namespace
 
 BoxStructure::BoxStructure(const Device& device, Staging& staging, Commands& commands,
                            std::span<const VkAabbPositionsKHR> boxes)
