@@ -140,10 +140,11 @@ TEST_F(View, OpensAnotherModel) {
 }
 
 TEST_F(View, ReloadsShadersAndKeepsTheOldOnesIfTheyAreBroken) {
+  display_.manage_windows();
   const std::filesystem::path shaders = folder_ / "shaders";
   std::filesystem::copy(TRISECT_SOURCES "/shaders", shaders);
   auto run = std::async(std::launch::async, [&] {
-    return view("0 press tab\n13 quit\n", {"--shaders", shaders, "--watch"});
+    return view("0 press tab\n120 quit\n", {"--shaders", shaders, "--watch"});
   });
   const std::string window = display_.window_called("trisect: sphere-20");
   const auto middle = [&] { return display_.pixel(window, 160, 120); };
@@ -163,6 +164,7 @@ TEST_F(View, ReloadsShadersAndKeepsTheOldOnesIfTheyAreBroken) {
   std::ofstream(shaders / "shading.glsl") << "this is no shader\n";
   std::this_thread::sleep_for(1500ms);
   EXPECT_TRUE(is_blue(middle()));
+  display_.xdotool("key alt+F4");
   const test::ProgramRun done = run.get();
   ASSERT_EQ(done.exit_code, 0) << done.out << done.err;
 }
