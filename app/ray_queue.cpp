@@ -30,7 +30,7 @@ double RayQueue::run_all(gpu::Commands& commands, std::span<const gpu::Kernel> k
     commands.dispatch(kernels[kernel], bound, push_bytes(queue), groups);
     gpu_ms += commands.submit_and_wait();
     std::memcpy(&state, queued_.bytes().data(), sizeof(state));
-    bytes_read_ += bytes_read(state);
+    bytes_read_ += bytes_in(state);
     return state.queued;
   });
   return gpu_ms;

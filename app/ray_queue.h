@@ -12,7 +12,7 @@
 
 namespace trisect {
 
-inline uint64_t bytes_read(const QueueState& state) {
+inline uint64_t bytes_in(const QueueState& state) {
   return (uint64_t{state.bytes_high} << 32U) + state.bytes_low;
 }
 
@@ -55,8 +55,9 @@ class RayQueue {
                    });
   }
 
-  // What rays have read of the scene since this was last asked, if the kernels count it.
-  uint64_t take_bytes_read() { return std::exchange(bytes_read_, 0); }
+  // What rays have read of the scene since begin_count(), if the kernels count it.
+  void begin_count() { bytes_read_ = 0; }
+  [[nodiscard]] uint64_t bytes_read() const { return bytes_read_; }
 
   // llvmpipe ends all loops of a subgroup, of at most 16 rays, after 65535 iterations.
   static constexpr uint32_t kSteps = 4000;

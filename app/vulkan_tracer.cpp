@@ -37,14 +37,13 @@ std::optional<TileLists> lists_for(const gpu::Device& device, const BakedScene& 
                                   static_cast<uint32_t>(scene.cages.size()), width, band_rows);
 }
 
-SceneBuffers::ByAddress reach_for(const gpu::Device& device, Accel accel) {
+SceneBuffers::ByAddress by_address_for(const gpu::Device& device, Accel accel) {
   if (accel == Accel::rayquery && !device.has_ray_query()) {
     throw gpu::Error(device.report().name +
                      " lacks the ray queries of --accel rayquery; use --accel bvh.");
   }
-  return accel == Accel::bvh        ? SceneBuffers::ByAddress::if_large
-         : accel == Accel::rayquery ? SceneBuffers::ByAddress::always
-                                    : SceneBuffers::ByAddress::never;
+  if (accel == Accel::rayquery) return SceneBuffers::ByAddress::always;
+  return accel == Accel::bvh ? SceneBuffers::ByAddress::if_large : SceneBuffers::ByAddress::never;
 }
 
 struct NamedKernel {
@@ -120,7 +119,7 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
       buffer_limit_(std::min<std::size_t>(buffer_limit, device.limits().maxStorageBufferRange)),
       band_rows_(rows_in_a_band(device.report().name, buffer_limit_, width, height, writes_aovs_)),
       tiles_(lists_for(device, scene, choice, code, width, band_rows_)),
-      scene_(device, scene, buffer_limit_, reach_for(device, choice.accel)),
+      scene_(device, scene, buffer_limit_, by_address_for(device, choice.accel)),
       kernels_(kernels_for(device, choice.accel, scene_.by_address(), constants_of(scene, choice),
                            code)),
       shadow_kernels_(shadow_kernels_for(device, scene, choice, scene_.by_address(), code)),
@@ -166,6 +165,7 @@ double VulkanTracer::look(const TraceParams& params) {
     throw std::logic_error("the trace parameters are not for this tracer's image size");
   }
   staging_.upload(commands_, std::as_bytes(std::span(&params, 1)), params_);
+  image_.queue.begin_count();
   return tiles_ ? tiles_->view(commands_, bound_) : 0.0;
 }
 
@@ -180,7 +180,7 @@ FrameTime VulkanTracer::render(const TraceParams& params, Frame& frame,
     time.gpu_ms += render_band(params, row, rows, between_submits);
     download_band(row, rows, frame);
   }
-  frame.bytes_read = image_.queue.take_bytes_read();
+  frame.bytes_read = image_.queue.bytes_read();
   time.wall_ms = watch.milliseconds();
   return time;
 }
@@ -197,6 +197,7 @@ void VulkanTracer::download_band(uint32_t first_row, uint32_t rows, Frame& frame
 
 void VulkanTracer::fetch(const TraceParams& params, Frame& frame) {
   frame.resize(params.width, params.height, aovs_);
+  frame.bytes_read = image_.queue.bytes_read();
   download_band(0, params.height, frame);
 }
 

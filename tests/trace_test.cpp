@@ -396,6 +396,10 @@ TEST_F(Trace, CountsTheBytesThatRaysRead) {
     VulkanTracer tracer(test::validated_device(), scene, 800, 600,
                         {.solver = solver, .aovs = true, .counts = true, .accel = accel});
     Frame frame;
+    // One that is stopped counts for nothing.
+    struct Stop {};
+    const auto stop = [] { throw Stop(); };
+    EXPECT_THROW(tracer.render(params, frame, stop), Stop);
     tracer.render(params, frame);
     return frame.bytes_read;
   };

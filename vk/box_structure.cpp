@@ -1,10 +1,5 @@
 #include "vk/box_structure.h"
 
-#include <algorithm>
-#include <cstring>
-#include <string>
-#include <utility>
-
 #include "vk/result.h"
 
 namespace trisect::gpu {
@@ -60,13 +55,8 @@ VkAccelerationStructureBuildSizesInfoKHR sizes_of(const Device& device, Build& b
   return sizes;
 }
 
-std::size_t bottom_size(const Device& device, std::size_t boxes) {
-  Build build = build_of_boxes(0, boxes);
-  return sizes_of(device, build).accelerationStructureSize;
-}
-
-std::size_t top_size(const Device& device) {
-  Build build = build_of_instances(0);
+// Of what it makes, in bytes: that depends on counts alone.
+std::size_t result_size(const Device& device, Build build) {
   return sizes_of(device, build).accelerationStructureSize;
 }
 
@@ -76,7 +66,6 @@ void run(const Device& device, Commands& commands, Build& build,
   const VkDeviceSize alignment = device.scratch_alignment();
   const Buffer scratch(device, sizes_of(device, build).buildScratchSize + alignment,
                        Memory::addressed, "scratch");
-  build.info.pGeometries = &build.geometry;
   build.info.dstAccelerationStructure = structure;
   build.info.scratchData.deviceAddress =
       (scratch.address() + alignment - 1) / alignment * alignment;
@@ -111,9 +100,9 @@ BoxStructure::Level::~Level() {
 BoxStructure::BoxStructure(const Device& device, Staging& staging, Commands& commands,
                            std::span<const VkAabbPositionsKHR> boxes)
     : bottom_(device, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR,
-              bottom_size(device, boxes.size()), "boxes"),
-      top_(device, VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, top_size(device),
-           "the scene of boxes") {
+              result_size(device, build_of_boxes(0, boxes.size())), "boxes"),
+      top_(device, VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR,
+           result_size(device, build_of_instances(0)), "the scene of boxes") {
   const Buffer input(device, boxes.size_bytes(), Memory::addressed, "corners of boxes");
   staging.upload(commands, std::as_bytes(boxes), input);
   Build bottom = build_of_boxes(input.address(), boxes.size());

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 #include <stdexcept>
-#include <utility>
 
 #include "app/buffer_limits.h"
 #include "app/cage.h"
@@ -107,6 +106,8 @@ FrameTime Tracer::render(const TraceParams& params, Frame& frame,
     throw std::logic_error("the trace parameters are not for this tracer's image size");
   }
   frame.resize(width_, height_, aovs_);
+  // Of a frame that was stopped some may be left.
+  bytes_read_ = 0;
 
   const Stopwatch watch;
   FrameTime time;
@@ -125,7 +126,7 @@ FrameTime Tracer::render(const TraceParams& params, Frame& frame,
       target_->read(row, rows, frame);
     }
   }
-  frame.bytes_read = std::exchange(bytes_read_, 0);
+  frame.bytes_read = bytes_read_;
   check("a frame was rendered");
   time.wall_ms = watch.milliseconds();
   return time;
@@ -139,7 +140,7 @@ uint32_t Tracer::submit(const TilePush& push, const std::function<void()>& work)
   QueueState state{};
   // Waits for the work.
   queued_.read(0, std::as_writable_bytes(std::span(&state, 1)));
-  bytes_read_ += bytes_read(state);
+  bytes_read_ += bytes_in(state);
   return state.queued;
 }
 
