@@ -66,8 +66,14 @@ inline Interval root(const Interval& a) {
   return {std::max(result.lo, 0.0), result.hi};
 }
 
+// Of two exact vectors. Five roundings, each of no more than the sum of the products' sizes.
 inline Interval dot(const glm::dvec3& a, const glm::dvec3& b) {
-  return Interval(a.x) * b.x + Interval(a.y) * b.y + Interval(a.z) * b.z;
+  constexpr double roundings = 5.0 * std::numeric_limits<double>::epsilon();
+  constexpr double tiny = 8.0 * std::numeric_limits<double>::denorm_min();
+  const double value = a.x * b.x + a.y * b.y + a.z * b.z;
+  const double slack =
+      (std::abs(a.x * b.x) + std::abs(a.y * b.y) + std::abs(a.z * b.z)) * roundings + tiny;
+  return {value - slack, value + slack};
 }
 
 }  // namespace trisect

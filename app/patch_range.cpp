@@ -153,15 +153,8 @@ Enclosure enclose_quotient(const Patch& patch, const Part& part, const PartCorne
 }
 
 Enclosure enclose_sphere(const Patch& patch, const Part& part, const PartCorners& corners) {
-  const auto& D = corners.D;
-  // The least Bernstein coefficient of |D|^2.
-  const double shortest = std::sqrt(
-      std::max(0.0, std::min({dot(D[0], D[0]).lo, dot(D[1], D[1]).lo, dot(D[2], D[2]).lo,
-                              dot(D[0], D[1]).lo, dot(D[1], D[2]).lo, dot(D[2], D[0]).lo})));
   const Enclosure wide = around_base(corners, patch.longest * (1.0 + kRounding));
-  if (!(shortest > 0.0)) return wide;
-  const double limit = patch.longest / shortest * (1.0 + kRounding);
-  const auto sigma = sphere_sigma_range(patch, part, corners, Interval(-limit, limit));
+  const auto sigma = sphere_sigma_range(patch, part, corners);
   if (!sigma || !std::isfinite(sigma->lo) || !std::isfinite(sigma->hi)) return wide;
   Enclosure e = around_base(corners, 0.0);
   e.D = corners.D;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/surface_double.h"
+
 namespace trisect {
 namespace {
 
@@ -24,24 +26,46 @@ Interval product_range(const std::array<dvec3, 3>& a, const std::array<dvec3, 3>
   return range;
 }
 
-// Range of the curvature at vertex i, seen from which a convex part spans the angles of its
-// corners.
+// Range of |D|^2: (D.n)^2 at least, n the face normal, which the coefficients may miss by much
+// where directions turn fast.
+Interval square_range(const Patch& patch, const std::array<dvec3, 3>& D) {
+  const dvec3 n = glm::cross(patch.P[1] - patch.P[0], patch.P[2] - patch.P[0]);
+  const double above = linear_range(D, n).lo;
+  const Interval range = product_range(D, D);
+  if (!(above > 0.0)) return range;
+  const double least = divide_by_positive(square(above), dot(n, n)).lo;
+  return {std::max(range.lo, least), range.hi};
+}
+
+// Range of the curvature at vertex i. Seen from there a convex part spans the angles of its
+// corners, T; what matters of an angle is its size.
 Interval curvature_range(const Patch& patch, std::size_t i, const std::array<dvec3, 3>& T) {
-  const dvec3& b = patch.P[i == 2 ? 1 : 2];
-  double lowest = 1.0;
+  const dvec3 e = patch.P[i == 2 ? 1 : 2] - patch.P[i];
+  const dvec3 n = glm::cross(patch.P[1] - patch.P[0], patch.P[2] - patch.P[0]);
+  double lowest = kInfinity;
   double highest = 0.0;
+  bool left = false;
+  bool right = false;
   for (const dvec3& corner : T) {
     const dvec3 x = corner - patch.P[i];
     if (x == dvec3(0.0)) continue;
-    const dvec3 e = b - patch.P[i];
-    const double beta = std::atan2(glm::length(glm::cross(x, e)), glm::dot(x, e)) / patch.data[i].z;
-    lowest = std::min(lowest, beta);
-    highest = std::max(highest, beta);
+    const dvec3 sine = glm::cross(x, e);
+    const double angle = std::atan2(glm::length(sine), glm::dot(x, e));
+    lowest = std::min(lowest, angle);
+    highest = std::max(highest, angle);
+    left = left || glm::dot(sine, n) <= 0.0;
+    right = right || glm::dot(sine, n) >= 0.0;
   }
+  // Across the edge, or its other side, or around the vertex, which has a corner behind it then.
+  const bool across = left && right;
+  constexpr double right_angle = 1.57;
+  if (across && highest > right_angle) highest = kInfinity;
+  if (across) lowest = 0.0;
   // The angle is exact to some ten units in the last place of pi.
   constexpr double rounding = 1e-14;
-  const double slack = rounding / patch.data[i].z;
-  const Interval beta(std::clamp(lowest - slack, 0.0, 1.0), std::clamp(highest + slack, 0.0, 1.0));
+  const double all = patch.data[i].z;
+  const Interval beta(std::clamp((lowest - rounding) / all, 0.0, 1.0),
+                      std::clamp((highest + rounding) / all, 0.0, 1.0));
   return patch.data[i].y + beta * (Interval(patch.data[i].x) - patch.data[i].y);
 }
 
@@ -50,6 +74,7 @@ struct HeightQuadratic {
   std::array<dvec3, 3> x;  // the corners seen from the vertex
   Interval c;              // curvature
   Interval DD;
+  Interval DN;
   Interval xD;
   Interval xx;
   Interval A;
@@ -62,41 +87,59 @@ HeightQuadratic height_quadratic(const Patch& patch, std::size_t i, const PartCo
   HeightQuadratic q{};
   q.x = {T[0] - patch.P[i], T[1] - patch.P[i], T[2] - patch.P[i]};
   q.c = curvature_range(patch, i, T);
-  q.DD = product_range(D, D);
+  q.DD = square_range(patch, D);
+  q.DN = linear_range(D, patch.N[i]);
   q.xD = product_range(q.x, D);
   q.xx = product_range(q.x, q.x);
   q.A = q.c * q.DD;
-  q.B = q.c * q.xD + linear_range(D, patch.N[i]);
+  q.B = q.c * q.xD + q.DN;
   q.C = q.c * q.xx + Interval(2.0) * linear_range(q.x, patch.N[i]);
   return q;
 }
 
-// -C / (B + sign(B) sqrt(B^2 - A C)), or nothing where B may vanish.
+Interval intersection(const Interval& a, const Interval& b) {
+  return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
+}
+
+// The range of sphere_root (shaders/surface.glsl), or nothing where A and B may both vanish.
 std::optional<Interval> root_range(const HeightQuadratic& q) {
-  const Interval discriminant_root = root(square(q.B) - q.A * q.C);
-  if (q.B.lo > 0.0) return -divide_by_positive(q.C, q.B + discriminant_root);
-  if (q.B.hi < 0.0) return divide_by_positive(q.C, discriminant_root - q.B);
-  return std::nullopt;
+  const Interval discriminant = square(q.B) - q.A * q.C;
+  const Interval discriminant_root = root(discriminant);
+  std::optional<Interval> range;
+  // (root - B) / A, whether the line meets the sphere or not.
+  if (q.A.lo > 0.0) range = divide_by_positive(discriminant_root - q.B, q.A);
+  if (q.A.hi < 0.0) range = divide_by_positive(q.B - discriminant_root, -q.A);
+  if (q.B.lo > 0.0) {
+    // -C / (B + root) where it meets it. Where it does not, B^2 <= A C, so that -B / A lies between
+    // 0 and -C / B.
+    Interval other = -divide_by_positive(q.C, q.B + discriminant_root);
+    if (discriminant.lo <= 0.0) other = hull(other, hull(0.0, -divide_by_positive(q.C, q.B)));
+    range = range ? intersection(*range, other) : other;
+  }
+  return range;
 }
 
-// No displacement is longer than the longest edge: of that, at the longest D.
-double least_limit(const Patch& patch, const HeightQuadratic& q) {
-  return patch.longest / root(q.DD).hi * (1.0 - 1e-14);
+// The range of height_limit, for q.DD > 0.
+Interval limit_range(const HeightQuadratic& q) {
+  const Interval D = root(q.DD);
+  const Interval share = divide_by_positive(q.DN, D * in_double::FLAT_SINE);
+  return divide_by_positive(
+      Interval(std::clamp(share.lo, 0.0, 1.0), std::clamp(share.hi, 0.0, 1.0)) * root(q.xx), D);
 }
 
-// Range of s_i over a part, in units of D, or nothing where it is not bounded by this means.
+// Range of s_i over a part, in units of D, or nothing where D may vanish.
 std::optional<Interval> height_range(const Patch& patch, std::size_t i,
                                      const PartCorners& corners) {
   const HeightQuadratic q = height_quadratic(patch, i, corners);
-  const std::optional<Interval> s = root_range(q);
-  if (!s) return std::nullopt;
-  // A root past the limit is drawn back toward 0.
-  const double limit = least_limit(patch, q);
-  return s->hi > limit || s->lo < -limit ? hull(*s, 0.0) : *s;
+  if (!(q.DD.lo > 0.0)) return std::nullopt;
+  const Interval limit = limit_range(q);
+  const Interval s = root_range(q).value_or(Interval(-kInfinity, kInfinity));
+  return Interval(s.lo > 0.0 ? std::min(s.lo, limit.lo) : std::max(s.lo, -limit.hi),
+                  s.hi > 0.0 ? std::min(s.hi, limit.hi) : std::max(s.hi, -limit.lo));
 }
 
 // Range of the derivative of s_i as T moves by dT and D by dD: A s^2 + 2 B s + C = 0,
-// differentiated (sphere_derivative of shaders/surface.glsl). For B > 0, q.xx > 0 and a positive
+// differentiated (sphere_derivative of shaders/surface.glsl). For q.xx > 0 and a positive
 // discriminant.
 Interval derivative_range(const Patch& patch, std::size_t i, const PartCorners& corners,
                           const HeightQuadratic& q, const Interval& s, const dvec3& dT,
@@ -114,28 +157,72 @@ Interval derivative_range(const Patch& patch, std::size_t i, const PartCorners& 
                              Interval(2.0) * half_slope);
 }
 
+// Whether the limit is a smooth function of D over a part.
+bool limit_is_smooth(const HeightQuadratic& q) {
+  const Interval flat = root(q.DD) * in_double::FLAT_SINE;
+  return q.DN.hi < 0.0 || q.DN.lo > flat.hi || (q.DN.lo > 0.0 && q.DN.hi < flat.lo);
+}
+
+// Whether a root with these ranges stays within its limit.
+bool is_within_limit(const Patch& patch, std::size_t i, const HeightQuadratic& q, const Interval& s,
+                     const Interval& discriminant) {
+  const double limit = limit_range(q).lo;
+  if (s.hi < limit && s.lo > -limit) return true;
+  if (!(q.B.lo > 0.0) || !(discriminant.lo > 0.0)) return false;
+  // Next to the vertex, where both fall to 0, what they are to the distance x from it:
+  // |s| <= (|c| x + 2 |x.N| / x) x / (B + root), x.N no more than N's length along the face.
+  const dvec3 n = glm::normalize(glm::cross(patch.P[1] - patch.P[0], patch.P[2] - patch.P[0]));
+  const double along = glm::length(patch.N[i] - n * glm::dot(patch.N[i], n));
+  const double slope =
+      (std::max(-q.c.lo, q.c.hi) * root(q.xx).hi + 2.0 * along) / (q.B.lo + root(discriminant).lo);
+  const Interval D = root(q.DD);
+  constexpr double rounding = 1e-12;
+  return slope + rounding < std::min(q.DN.lo / (in_double::FLAT_SINE * D.hi), 1.0) / D.hi;
+}
+
+// Whether s_i, which the root puts into s, has no kink over a part: it is the limit all over it, or
+// nowhere, and then all of the lines meet the sphere or none.
+bool has_no_kink(const Patch& patch, std::size_t i, const HeightQuadratic& q,
+                 const std::optional<Interval>& s) {
+  if (!(q.DD.lo > 0.0)) return false;
+  if (q.DN.hi < 0.0) return true;
+  if (!s) return false;
+  const Interval limit = limit_range(q);
+  if (s->lo > limit.hi || s->hi < -limit.hi) return limit_is_smooth(q);
+  const Interval discriminant = square(q.B) - q.A * q.C;
+  return (discriminant.lo > 0.0 || discriminant.hi < 0.0) &&
+         is_within_limit(patch, i, q, *s, discriminant);
+}
+
 // Whether s_i is smooth over a part and q bounds its derivatives.
 bool is_smooth(const Patch& patch, std::size_t i, const HeightQuadratic& q,
                const std::optional<Interval>& s) {
-  if (!s || !(q.B.lo > 0.0) || !(q.xx.lo > 0.0) || !(patch.data[i].z > 0.0)) return false;
-  const double limit = least_limit(patch, q);
+  if (!s || !(q.DD.lo > 0.0) || !(q.xx.lo > 0.0) || !(patch.data[i].z > 0.0)) return false;
+  const double limit = limit_range(q).lo;
   return (square(q.B) - q.A * q.C).lo > 0.0 && s->hi < limit && s->lo > -limit;
 }
 
 }  // namespace
 
 std::optional<Interval> sphere_sigma_range(const Patch& patch, const Part& part,
-                                           const PartCorners& corners,
-                                           const std::optional<Interval>& unbounded) {
+                                           const PartCorners& corners) {
   Interval sigma(0.0);
   for (int i = 0; i < 3; ++i) {
-    auto s = height_range(patch, static_cast<std::size_t>(i), corners);
-    if (!s) s = unbounded;
+    const auto s = height_range(patch, static_cast<std::size_t>(i), corners);
     if (!s) return std::nullopt;
     const auto [lo, hi] = std::minmax({part[0][i], part[1][i], part[2][i]});
     sigma = sigma + Interval(lo, hi) * *s;
   }
   return sigma;
+}
+
+bool sphere_is_smooth(const Patch& patch, const Part& part) {
+  const PartCorners corners = corners_of(patch, part);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const HeightQuadratic q = height_quadratic(patch, i, corners);
+    if (!has_no_kink(patch, i, q, root_range(q))) return false;
+  }
+  return true;
 }
 
 std::optional<SigmaRanges> sphere_derivative_ranges(const Patch& patch, const Part& part,

@@ -9,11 +9,13 @@
 
 namespace trisect {
 
-// Range of sigma, in units of D, over a part. A height s_i that interval arithmetic does not bound
-// counts as `unbounded`; nothing if that is nothing.
+// Range of sigma, in units of D, over a part; nothing where D may vanish.
 std::optional<Interval> sphere_sigma_range(const Patch& patch, const Part& part,
-                                           const PartCorners& corners,
-                                           const std::optional<Interval>& unbounded = {});
+                                           const PartCorners& corners);
+
+// Whether sigma is smooth over a part, all of which may lie beyond the triangle's border: every
+// line meets its spheres and no height is at its limit. False does not say that it is not.
+bool sphere_is_smooth(const Patch& patch, const Part& part);
 
 // Ranges of sigma and of its derivatives along u and v. Nothing where a height may be at its limit
 // or its line may miss the sphere, and at a vertex, about which the derivatives of the curvature

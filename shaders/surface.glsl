@@ -71,17 +71,19 @@ vec3 edge_bulges(Triangle tri, real alpha) {
               edge_bulge(tri.Position[0], tri.Position[2], tri.Normal[0], tri.Normal[2], alpha));
 }
 
-// Where the line x0 + s dir, x0 relative to the vertex, meets the sphere c |x|^2 + 2 x.N = 0 of curvature c
-// through the vertex: A s^2 + 2 B s + C = 0, the root next to x0. Divides by no curvature, so c = 0 is a
-// plane and no limit case. A line that misses the sphere passes closest to it at s = -B / A; to be continuous
-// with the lines that touch it, it gets -C / B.
+// Where the line x0 + s dir, x0 relative to the vertex, leaves the sphere c |x|^2 + 2 x.N = 0 of curvature c through
+// the vertex, or enters a hollow one, on the side to which N points: A s^2 + 2 B s + C = 0, the root with A s + B >= 0.
+// A line that misses the sphere gets the point where it passes closest to it, s = -B / A, as one does that touches it.
+// For B > 0 a plane, c = 0, is no limit case.
 real sphere_root(vec3 x0, vec3 dir, vec3 N, real c) {
   real A = c * dot3(dir, dir);
   real B = c * dot3(x0, dir) + dot3(dir, N);
   real C = c * dot3(x0, x0) + real(2.0) * dot3(x0, N);
-  if (C == real(0.0)) return real(0.0);
-  real root = sqrt(max(B * B - A * C, real(0.0)));
-  return -C / (B < real(0.0) ? B - root : B + root);
+  bool plane = A == real(0.0);
+  if (C == real(0.0) && (plane || B >= real(0.0))) return real(0.0);
+  real discriminant = B * B - A * C;
+  real root = plane ? B : sqrt(max(discriminant, real(0.0)));
+  return plane || (B > real(0.0) && discriminant > real(0.0)) ? -C / (B + root) : (root - B) / A;
 }
 
 // The curvature at vertex i toward the point T of the triangle, linear in the angle at the vertex between
@@ -91,23 +93,31 @@ real blended_curvature(vec3 T, vec3 vertex, vec3 b, vec4 data) {
   return data.y + beta * (data.x - data.y);
 }
 
-// s_i of the sphere surface: displacement toward the sphere of vertex i, in units of D. The farthest that a
-// point may be displaced is the triangle's longest edge (TriNormal.w); only a shell direction that lies in
-// the tangent plane of a vertex comes there, where the definition would send it to infinity.
-real sphere_height(vec3 T, vec3 D, vec3 vertex, vec3 normal, vec3 b, vec4 data, real longest) {
-  real limit = longest / length3(D);
-  return clamp(sphere_root(T - vertex, D, normal, blended_curvature(T, vertex, b, data)), -limit,
-               limit);
+// Directions flatter on a vertex's tangent plane than this sine displace less and less toward its sphere, those beneath it
+// not at all: the definition would send them to infinity.
+const real FLAT_SINE = real(0.25);
+
+// The farthest that a point x0 from a vertex is displaced toward its sphere, in units of D: as far as it is from the
+// vertex. An arc of up to a half circle stays within this of its chord. Along an edge both of its faces have the same limit.
+real height_limit(vec3 x0, vec3 D, vec3 N) {
+  real size = length3(D);
+  return length3(x0) * clamp(dot3(D, N) / (FLAT_SINE * size), real(0.0), real(1.0)) / size;
+}
+
+// s_i of the sphere surface: displacement toward the sphere of vertex i, in units of D.
+real sphere_height(vec3 T, vec3 D, vec3 vertex, vec3 N, vec3 b, vec4 data) {
+  vec3 x0 = T - vertex;
+  real limit = height_limit(x0, D, N);
+  return clamp(sphere_root(x0, D, N, blended_curvature(T, vertex, b, data)), -limit, limit);
 }
 
 vec3 sphere_heights(Triangle tri, vec3 T, vec3 D) {
   vec3 P0 = vec3(tri.Position[0]);
   vec3 P1 = vec3(tri.Position[1]);
   vec3 P2 = vec3(tri.Position[2]);
-  real longest = tri.TriNormal.w;
-  return vec3(sphere_height(T, D, P0, vec3(tri.Normal[0]), P2, tri.VertexData[0], longest),
-              sphere_height(T, D, P1, vec3(tri.Normal[1]), P2, tri.VertexData[1], longest),
-              sphere_height(T, D, P2, vec3(tri.Normal[2]), P1, tri.VertexData[2], longest));
+  return vec3(sphere_height(T, D, P0, vec3(tri.Normal[0]), P2, tri.VertexData[0]),
+              sphere_height(T, D, P1, vec3(tri.Normal[1]), P2, tri.VertexData[1]),
+              sphere_height(T, D, P2, vec3(tri.Normal[2]), P1, tri.VertexData[2]));
 }
 
 // sigma(w).
@@ -145,14 +155,19 @@ real phong_derivative(Triangle tri, vec3 w, vec3 dw, vec3 T, vec3 dT, vec3 D, ve
 
 // Derivative of s_i when T moves by dT and D by dD. `turn` is +n or -n, the axis about which the angle from b
 // to the point grows.
-real sphere_derivative(vec3 T, vec3 dT, vec3 D, vec3 dD, real s, vec3 vertex, vec3 N, vec3 b, vec4 data,
-                       real longest, vec3 turn) {
+real sphere_derivative(vec3 T, vec3 dT, vec3 D, vec3 dD, real s, vec3 vertex, vec3 N, vec3 b, vec4 data, vec3 turn) {
   vec3 x0 = T - vertex;
   real xx = dot3(x0, x0);
   real DD = dot3(D, D);
   if (xx == real(0.0)) return -dot3(dT, N) / dot3(D, N);
-  real limit = longest / length3(D);
-  if (abs(s) >= limit) return -s * dot3(D, dD) / DD;
+  if (abs(s) >= height_limit(x0, D, N)) {
+    // Of the limit.
+    real DN = dot3(D, N);
+    if (DN <= real(0.0)) return real(0.0);
+    real relative = dot3(x0, dT) / xx - dot3(D, dD) / DD;
+    if (DN < FLAT_SINE * sqrt(DD)) relative += dot3(dD, N) / DN - dot3(D, dD) / DD;
+    return s * relative;
+  }
   real c = blended_curvature(T, vertex, b, data);
   real dc = (data.x - data.y) * dot3(cross3(turn, x0), dT) / (xx * data.z);
   real A = c * DD;
@@ -161,9 +176,8 @@ real sphere_derivative(vec3 T, vec3 dT, vec3 D, vec3 dD, real s, vec3 vertex, ve
   EXACT real dB = dot3(dD, N) + c * (dot3(dT, D) + dot3(x0, dD)) + dc * dot3(x0, D);
   real dC = dc * xx + real(2.0) * (c * dot3(x0, dT) + dot3(dT, N));
   real C = c * xx + real(2.0) * dot3(x0, N);
-  real discriminant = B * B - A * C;
-  if (discriminant <= real(0.0)) return -(dC + s * dB) / B;
-  // A s^2 + 2 B s + C = 0, differentiated; A s + B is the square root of the discriminant with B's sign.
+  // The line passes closest to the sphere at -B / A, or meets it, where A s + B is the square root of the discriminant.
+  if (B * B - A * C <= real(0.0)) return -(dB + s * dA) / A;
   return -((dA * s + real(2.0) * dB) * s + dC) / (real(2.0) * (A * s + B));
 }
 
@@ -208,15 +222,14 @@ Displacement displacement_and_derivatives(Shape shape, Triangle tri, vec3 w) {
   vec3 N1 = vec3(tri.Normal[1]);
   vec3 N2 = vec3(tri.Normal[2]);
   vec3 s = sphere_heights(tri, T, D);
-  real longest = tri.TriNormal.w;
   // The angle at a vertex is measured from neighbour b; seen along n, b follows a at vertices 0 and 2
   // (so the angle shrinks as the point turns about +n) and precedes it at vertex 1.
-  vec3 su = vec3(sphere_derivative(T, Tu, D, Du, s.x, P0, N0, P2, tri.VertexData[0], longest, -n),
-                 sphere_derivative(T, Tu, D, Du, s.y, P1, N1, P2, tri.VertexData[1], longest, n),
-                 sphere_derivative(T, Tu, D, Du, s.z, P2, N2, P1, tri.VertexData[2], longest, -n));
-  vec3 sv = vec3(sphere_derivative(T, Tv, D, Dv, s.x, P0, N0, P2, tri.VertexData[0], longest, -n),
-                 sphere_derivative(T, Tv, D, Dv, s.y, P1, N1, P2, tri.VertexData[1], longest, n),
-                 sphere_derivative(T, Tv, D, Dv, s.z, P2, N2, P1, tri.VertexData[2], longest, -n));
+  vec3 su = vec3(sphere_derivative(T, Tu, D, Du, s.x, P0, N0, P2, tri.VertexData[0], -n),
+                 sphere_derivative(T, Tu, D, Du, s.y, P1, N1, P2, tri.VertexData[1], n),
+                 sphere_derivative(T, Tu, D, Du, s.z, P2, N2, P1, tri.VertexData[2], -n));
+  vec3 sv = vec3(sphere_derivative(T, Tv, D, Dv, s.x, P0, N0, P2, tri.VertexData[0], -n),
+                 sphere_derivative(T, Tv, D, Dv, s.y, P1, N1, P2, tri.VertexData[1], n),
+                 sphere_derivative(T, Tv, D, Dv, s.z, P2, N2, P1, tri.VertexData[2], -n));
   sigma.s = dot3(w, s);
   sigma.u = dot3(du, s) + dot3(w, su);
   sigma.v = dot3(dv, s) + dot3(w, sv);

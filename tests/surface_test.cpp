@@ -160,15 +160,50 @@ TEST(Surface, NormalShellSharesItsEdges) {
       for (const double x : {0.1, 0.25, 0.5, 0.9}) {
         const dvec3 p = in_double::surface_point(shape_of(choice), a, {1.0 - x, x, 0.0});
         const dvec3 q = in_double::surface_point(shape_of(choice), b, {x, 1.0 - x, 0.0});
-        // sphere: the farthest displacement, the longest edge, is the triangle's own affair.
-        const double reach = glm::distance(p, one.positions[0] * (1.0 - x) + one.positions[1] * x);
-        if (surface == SURFACE_SPHERE && reach > 0.5) continue;
         // The angle between the edges rounds in single precision, so 6e-8 of one edge's curvature
         // counts on the other; slivers have curvatures of 10 and more.
         ASSERT_LT(glm::distance(p, q), 1e-6) << "patch " << i;
       }
     }
   }
+}
+
+// However far apart the normals are, as long as the shell's direction does not vanish: where lines
+// begin to miss a sphere sigma has a root's slope, but it has no jump.
+TEST(Surface, SphereSurfaceIsContinuous) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  std::size_t compared = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const in_double::Triangle tri = baked(test::random_patch(random, 120.0));
+    for (const uint shell : {SHELL_HEIGHT, SHELL_NORMAL}) {
+      const in_double::Shape shape{SURFACE_SPHERE, shell, 0.0};
+      const double a = unit(random);
+      const double b = unit(random);
+      // Across the triangle from one edge to another.
+      const dvec3 from(a, 1.0 - a, 0.0);
+      const dvec3 to(0.0, b, 1.0 - b);
+      const auto at = [&](double x) { return glm::mix(from, to, x); };
+      double x0 = 0.0;
+      double x1 = 1.0;
+      const auto change = [&](double x, double y) {
+        return glm::distance(in_double::surface_point(shape, tri, at(x)),
+                             in_double::surface_point(shape, tri, at(y)));
+      };
+      // Toward the largest change, by halves: a jump stays as large as it is.
+      while (x1 - x0 > 1e-12) {
+        const double middle = 0.5 * (x0 + x1);
+        (change(x0, middle) > change(middle, x1) ? x1 : x0) = middle;
+      }
+      const double D = std::min(glm::length(in_double::shell_direction(shell, tri, at(x0))),
+                                glm::length(in_double::shell_direction(shell, tri, at(x1))));
+      if (!(D > 0.05)) continue;
+      ++compared;
+      // 1e-12 of the way, a root of that times the steepest of 2000 patches.
+      ASSERT_LT(change(x0, x1), 1e-4) << "patch " << i << " shell " << shell;
+    }
+  }
+  EXPECT_GT(compared, 3000U);
 }
 
 TEST(Surface, PhongIsBoubekeurAndAlexasProjectedOnTheShell) {
@@ -242,33 +277,55 @@ TEST(Surface, GeometricNormalIsThatOfDifferences) {
 }
 
 TEST(SphereRoot, SolvesTheSphere) {
-  // A unit sphere that touches z = 0 from below at the origin, and lines down onto it.
+  // A unit sphere that touches z = 0 from below at the origin, and lines up through it.
   for (const double x : {0.0, 0.3, 0.9, 0.9999}) {
-    const double s = in_double::sphere_root({x, 0, 1}, {0, 0, -1}, {0, 0, 1}, 1.0);
+    const double s = in_double::sphere_root({x, 0, 1}, {0, 0, 1}, {0, 0, 1}, 1.0);
     // The discriminant, 1 - x^2, is exact to 1e-16; its root to that over itself.
-    EXPECT_NEAR(1.0 - s, std::sqrt(1.0 - x * x) - 1.0, 1e-13);
+    EXPECT_NEAR(1.0 + s, std::sqrt(1.0 - x * x) - 1.0, 1e-13);
   }
   // Curvature 0 is the plane, and it is approached smoothly from both sides.
   for (const double c : {0.0, 1e-12, -1e-12, 1e-300}) {
-    EXPECT_NEAR(in_double::sphere_root({0.5, 0, 0.25}, {0, 0, -1}, {0, 0, 1}, c), 0.25, 1e-12);
+    EXPECT_NEAR(in_double::sphere_root({0.5, 0, 0.25}, {0, 0, 1}, {0, 0, 1}, c), -0.25, 1e-12);
   }
-  // A line that misses the sphere: continuous with the line that just touches it.
+  // A line that misses the sphere: its point next to the centre, where one that touches it does.
   const auto past = [](double x) {
-    return in_double::sphere_root({x, 0, 0}, {0, 0, -1}, {0, 0, 1}, 1.0);
+    return in_double::sphere_root({x, 0, 0}, {0, 0, 1}, {0, 0, 1}, 1.0);
   };
   EXPECT_NEAR(past(1.0 + 1e-12), past(1.0 - 1e-12), 1e-5);  // the square root of the step
-  EXPECT_EQ(past(2.0), 4.0);                                // -C / B with C = 4, B = -1
+  EXPECT_EQ(past(2.0), -1.0);
   // At the vertex itself, even along the tangent plane, where everything vanishes.
   EXPECT_EQ(in_double::sphere_root({0, 0, 0}, {1, 0, 0}, {0, 0, 1}, 0.0), 0.0);
 }
 
-TEST(SphereHeight, StopsAtTheLongestEdge) {
-  // The direction lies almost in the tangent plane of the vertex.
+// Where B changes sign the nearer of the two roots becomes the farther one.
+TEST(SphereRoot, StaysOnOneSideOfTheSphere) {
+  const double h = 1e-9;
+  for (const double c : {1.0, -1.0}) {
+    for (const double inside : {-0.5, 0.5}) {
+      // A line across the tangent plane's direction through a point beside the centre, -N / c.
+      const dvec3 x0(0.0, inside, -1.0 / c);
+      const double before = in_double::sphere_root(x0 - dvec3(0, 0, h), {0, 0, 1}, {0, 0, 1}, c);
+      const double after = in_double::sphere_root(x0 + dvec3(0, 0, h), {0, 0, 1}, {0, 0, 1}, c);
+      EXPECT_NEAR(before, after, 3.0 * h);
+      EXPECT_NEAR(after, std::sqrt(0.75) / c, 3.0 * h);
+    }
+  }
+}
+
+TEST(SphereHeight, GoesNoFartherThanFromItsVertex) {
   const dvec4 data(0.0, 0.0, 1.0, 0.0);
-  const dvec3 D(1.0, 0.0, 1e-9);
-  const double s =
-      in_double::sphere_height({0, 0.1, 0.5}, D, {0, 0, 0}, {0, 0, 1}, {0, 1, 0}, data, 2.0);
-  EXPECT_NEAR(std::abs(s) * glm::length(D), 2.0, 1e-12);
+  const dvec3 T(0, 0.3, 0.4);
+  const dvec3 N(0, 0, 1);
+  const auto length = [&](const dvec3& D) {
+    return in_double::sphere_height(T, D, {0, 0, 0}, N, {0, 1, 0}, data) * glm::length(D);
+  };
+  // To the plane at right angles; along a slant for which that is farther than to the vertex;
+  // almost in the tangent plane; in it and beneath.
+  EXPECT_NEAR(length({0, 0, 2}), -0.4, 1e-15);
+  EXPECT_NEAR(length({1.0, 0.0, 0.5}), -0.5, 1e-15);
+  EXPECT_NEAR(length({1.0, 0.0, 1e-3}), -0.5 * 1e-3 / in_double::FLAT_SINE, 1e-8);
+  EXPECT_EQ(length({1.0, 0.0, 0.0}), 0.0);
+  EXPECT_EQ(length({1.0, 0.0, -1.0}), 0.0);
 }
 
 TEST(Bisect, ConvergesOnTheSphere) {
