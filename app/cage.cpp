@@ -9,8 +9,10 @@
 #include "app/enclosing_ball.h"
 #include "app/kernel_float.h"
 #include "app/parallel_rows.h"
+#include "app/patch_range.h"
 #include "app/raise.h"
 #include "app/rounding.h"
+#include "app/sphere_range.h"
 #include "app/surface_double.h"
 #include "app/widen.h"
 
@@ -25,6 +27,8 @@ using glm::dvec3;
 constexpr double kClose = 0.02;
 constexpr double kTangentsClose = 0.1;
 constexpr int kMostLevels = 6;
+// A part with a kink is divided further by the kernel, for the few rays that come near.
+constexpr int kKinkedLevels = 5;
 
 // Rays are quick along the directions of a part's cone (Cage::cone), whose w should be at most so
 // large; else the part is divided, for this reason no further than to 4^2 parts of a patch.
@@ -37,10 +41,11 @@ const vec4 kNoCone(0.0F, 0.0F, 0.0F, NO_CONE);
 constexpr int kSamples = 12;
 constexpr double kBetweenSamples = 1.5;
 
-struct Patch {
+struct CagedPatch {
   in_double::Shape shape;
   in_double::Triangle tri;
   Corners corners;
+  Patch ranges;      // for proofs
   glm::vec3 bulges;  // the kernels' edge_bulges
 };
 
@@ -51,9 +56,9 @@ struct Fit {
   double bend = 0.0;           // Cage::bend
 };
 
-Patch patch_of(const SurfaceChoice& choice, const Triangle& single, in_float::Kernel& kernel) {
+CagedPatch patch_of(const SurfaceChoice& choice, const Triangle& single, in_float::Kernel& kernel) {
   const in_double::Triangle tri = widen(single);
-  return {shape_of(choice), tri, corners_of(tri, choice.shell),
+  return {shape_of(choice), tri, corners_of(tri, choice.shell), patch_of(choice.shell, single),
           kernel.edge_bulges(single, static_cast<float>(choice.alpha))};
 }
 
@@ -78,7 +83,7 @@ CageQuadratic through(const SubTriangle& part, Value&& value) {
   return whole;
 }
 
-double longest_direction(const Patch& patch) {
+double longest_direction(const CagedPatch& patch) {
   return std::max({glm::length(patch.corners.D[0]), glm::length(patch.corners.D[1]),
                    glm::length(patch.corners.D[2])});
 }
@@ -90,7 +95,7 @@ struct Sample {
   glm::dvec2 gradient;
 };
 
-Sample sample(const Patch& patch, const CageQuadratic& q, const dvec3& w) {
+Sample sample(const CagedPatch& patch, const CageQuadratic& q, const dvec3& w) {
   const in_double::Displacement sigma =
       in_double::displacement_and_derivatives(patch.shape, patch.tri, w);
   return {w,
@@ -99,7 +104,7 @@ Sample sample(const Patch& patch, const CageQuadratic& q, const dvec3& w) {
            sigma.v - 2.0 * q.blossom(w, {-1.0, 0.0, 1.0})}};
 }
 
-std::vector<Sample> samples_of(const Patch& patch, const SubTriangle& part,
+std::vector<Sample> samples_of(const CagedPatch& patch, const SubTriangle& part,
                                const CageQuadratic& q) {
   std::vector<Sample> samples;
   for (int i = 0; i <= kSamples; ++i) {
@@ -111,14 +116,86 @@ std::vector<Sample> samples_of(const Patch& patch, const SubTriangle& part,
   return samples;
 }
 
+// The largest change of the gradient between neighbours of samples_of, those farther away having
+// been seen in steps, over their distance in weights of the part.
+double steepest_change(const std::vector<Sample>& samples) {
+  double steepest = 0.0;
+  // Row i begins where the shorter ones before it end.
+  const auto at = [&](int i, int j) -> const Sample& {
+    return samples[static_cast<std::size_t>(i * (kSamples + 1) - i * (i - 1) / 2 + j)];
+  };
+  constexpr std::array<glm::ivec2, 4> steps{glm::ivec2(1, 0), {0, 1}, {1, -1}, {1, 1}};
+  for (int i = 0; i <= kSamples; ++i) {
+    for (int j = 0; i + j <= kSamples; ++j) {
+      for (const glm::ivec2& step : steps) {
+        const int k = i + step.x;
+        const int l = j + step.y;
+        if (l < 0 || k + l > kSamples) continue;
+        raise(steepest, glm::distance(at(i, j).gradient, at(k, l).gradient) * kSamples /
+                            glm::length(glm::dvec2(step)));
+      }
+    }
+  }
+  return steepest;
+}
+
 // Raises `stray` to how far S_u and S_v are from the cage's at the sample.
-void raise_tangent_stray(const Patch& patch, const Sample& a, double& stray) {
+void raise_tangent_stray(const CagedPatch& patch, const Sample& a, double& stray) {
   const dvec3 D = in_double::weigh(a.w, patch.corners.D[0], patch.corners.D[1], patch.corners.D[2]);
   raise(stray, glm::length(D * a.gradient.x + (patch.corners.D[1] - patch.corners.D[0]) * a.e));
   raise(stray, glm::length(D * a.gradient.y + (patch.corners.D[2] - patch.corners.D[0]) * a.e));
 }
 
-Fit fit(const Patch& patch, const SubTriangle& part) {
+Part part_of(const SubTriangle& part) {
+  const auto corner = [&](int k) { return part.origin + corner_weights(k) * part.size; };
+  return {corner(0), corner(1), corner(2)};
+}
+
+// Whether sigma may have a kink over a part, as far as so many divisions tell.
+bool may_be_kinked(const CagedPatch& patch, const Part& part, int divisions) {
+  if (sphere_is_smooth(patch.ranges, part)) return false;
+  if (divisions == 0) return true;
+  const auto quarters = quarter(part);
+  return std::any_of(quarters.begin(), quarters.end(),
+                     [&](const Part& piece) { return may_be_kinked(patch, piece, divisions - 1); });
+}
+
+// The most by which S strays from T + q D over a part, proven.
+double proven_stray(const CagedPatch& patch, const CageQuadratic& q, const Part& part,
+                    int divisions) {
+  if (divisions > 0) {
+    double most = 0.0;
+    for (const Part& piece : quarter(part)) {
+      raise(most, proven_stray(patch, q, piece, divisions - 1));
+    }
+    return most;
+  }
+  const PartCorners corners = corners_of(patch.ranges, part);
+  const auto sigma = sphere_sigma_range(patch.ranges, part, corners);
+  if (!sigma) return kInfinity;
+  Interval quadratic = q.blossom(part[0], part[0]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    quadratic = hull(quadratic, q.blossom(part[i], part[i]));
+    quadratic = hull(quadratic, q.blossom(part[i], part[(i + 1) % 3]));
+  }
+  double longest = 0.0;
+  for (const dvec3& D : corners.D) raise(longest, glm::length(D));
+  const Interval e = *sigma - quadratic;
+  return std::max(-e.lo, e.hi) * longest;
+}
+
+// The quadratic of a part of the sphere surface that may have a kink.
+Fit kinked_fit(const CagedPatch& patch, const SubTriangle& part, Fit fit, double rounded) {
+  constexpr int divisions = 2;
+  constexpr double most = std::numeric_limits<float>::max();
+  const double stray = proven_stray(patch, fit.q, part_of(enlarged(part, OVERLAP)), divisions);
+  fit.stray = std::isfinite(stray) ? stray + rounded : most;
+  fit.tangent_stray = most;
+  fit.bend = KINKED;
+  return fit;
+}
+
+Fit fit(const CagedPatch& patch, const SubTriangle& part) {
   const bool cubic = in_double::is_cubic(patch.shape);
   Fit fit;
   // Of a cubic patch as the kernels have it from the triangle, to the bit.
@@ -136,20 +213,20 @@ Fit fit(const Patch& patch, const SubTriangle& part) {
     fit.tangent_stray = rounded;
     return fit;
   }
-  const std::vector<Sample> samples = samples_of(patch, part, fit.q);
+  constexpr int divisions = 2;
+  if (patch.shape.surface == SURFACE_SPHERE &&
+      may_be_kinked(patch, part_of(enlarged(part, CONE_MARGIN)), divisions)) {
+    return kinked_fit(patch, part, fit, rounded);
+  }
+  const SubTriangle large = enlarged(part, OVERLAP);
+  const std::vector<Sample> samples = samples_of(patch, large, fit.q);
   for (const Sample& a : samples) {
     const dvec3 D =
         in_double::weigh(a.w, patch.corners.D[0], patch.corners.D[1], patch.corners.D[2]);
     raise(fit.stray, glm::length(D) * std::abs(a.e));
     raise_tangent_stray(patch, a, fit.tangent_stray);
-    for (const Sample& b : samples) {
-      const double distance = std::hypot(a.w.y - b.w.y, a.w.z - b.w.z);
-      // Neighbours on the grid; those farther away have been seen in steps.
-      if (distance > 0.0 && distance * kSamples < 1.5 * std::abs(part.size)) {
-        raise(fit.bend, glm::distance(a.gradient, b.gradient) / distance * longest_D);
-      }
-    }
   }
+  raise(fit.bend, steepest_change(samples) / std::abs(large.size) * longest_D);
   const auto widened = [&](double stray) {
     return std::isfinite(stray) ? stray * kBetweenSamples + rounded
                                 : static_cast<double>(std::numeric_limits<float>::max());
@@ -161,7 +238,7 @@ Fit fit(const Patch& patch, const SubTriangle& part) {
 }
 
 // The ball around a part, its overlap with the next ones included.
-Ball part_ball(const Patch& patch, const SubTriangle& part, const Fit& fit) {
+Ball part_ball(const CagedPatch& patch, const SubTriangle& part, const Fit& fit) {
   std::vector<Ball> points;
   for (const dvec3& point : net_of(patch.corners, enlarged(part, OVERLAP), fit.q)) {
     points.push_back({point, fit.stray});
@@ -179,7 +256,7 @@ double norm_of(const glm::dmat2& m) {
 }
 
 // How far S_u and S_v stray over an enlarged part from those of its cage.
-double tangents_stray(const Patch& patch, const SubTriangle& part, const Fit& fit) {
+double tangents_stray(const CagedPatch& patch, const SubTriangle& part, const Fit& fit) {
   if (fit.bend == 0.0) return fit.tangent_stray;
   double most = 0.0;
   for (const Sample& a : samples_of(patch, part, fit.q)) raise_tangent_stray(patch, a, most);
@@ -191,7 +268,7 @@ double tangents_stray(const Patch& patch, const SubTriangle& part, const Fit& fi
 // Seen along a direction d, on the tangent plane with normal n and mean tangents M0, that mean is
 // M0 (1 + E - t g^T), t the tangent of the angle between d and n, E and g those of (u_i, v_i): it
 // is one to one if |E| + t |g| < 1 for all i.
-vec4 normal_cone(const Patch& patch, const SubTriangle& part, const Fit& fit) {
+vec4 normal_cone(const CagedPatch& patch, const SubTriangle& part, const Fit& fit) {
   const SubTriangle large = enlarged(part, CONE_MARGIN);
   const ControlNet b = net_of(patch.corners, large, fit.q);
   const std::array<dvec3, 6> u{b[3] - b[0], b[1] - b[4], b[6] - b[7],
@@ -230,7 +307,7 @@ vec4 normal_cone(const Patch& patch, const SubTriangle& part, const Fit& fit) {
   return {glm::vec3(n), static_cast<float>(flattest / std::hypot(flattest, 1.0) + rounding)};
 }
 
-Cage cage_of(const Patch& patch, const SubTriangle& part, const Fit& fit, uint32_t triangle) {
+Cage cage_of(const CagedPatch& patch, const SubTriangle& part, const Fit& fit, uint32_t triangle) {
   Cage cage{};
   // Where the quadratic is no bound at all the whole patch's ball is one.
   if (part.size == 1.0 || !(fit.stray < patch.tri.Domain.w)) {
@@ -244,18 +321,19 @@ Cage cage_of(const Patch& patch, const SubTriangle& part, const Fit& fit, uint32
   cage.edge = vec4(glm::vec3(fit.q.edge), rounded_up(fit.tangent_stray));
   cage.cone = kNoCone;
   cage.triangle = triangle;
-  cage.bend = fit.bend > 0.0 ? rounded_up(fit.bend) : 0.0F;
+  cage.bend = rounded_up(fit.bend);
   // Less than the roundings of a position.
   constexpr double nothing = 1e-9;
   const dvec3 most = glm::max(glm::abs(fit.q.corner), glm::abs(fit.q.edge));
   const double displacement =
       std::max({most.x, most.y, most.z}) * longest_direction(patch) + fit.stray;
   const bool no_displacement = displacement <= nothing * patch.tri.TriNormal.w;
-  cage.flat_part = no_displacement ? 1 : 0;
+  // The kernel meets the patch's plane, whatever the part: only the whole may be it.
+  cage.flat_part = no_displacement && part.size == 1.0 ? 1 : 0;
   return cage;
 }
 
-void cage_part(const Patch& patch, const SubTriangle& part, int level, uint32_t triangle,
+void cage_part(const CagedPatch& patch, const SubTriangle& part, int level, uint32_t triangle,
                std::vector<Cage>& cages) {
   const Fit found = fit(patch, part);
   const double size = patch.tri.TriNormal.w * std::abs(part.size);
@@ -263,8 +341,8 @@ void cage_part(const Patch& patch, const SubTriangle& part, int level, uint32_t 
       found.stray <= kClose * size && found.tangent_stray <= kTangentsClose * patch.tri.TriNormal.w;
   const std::size_t index = cages.size();
   cages.push_back(cage_of(patch, part, found, triangle));
-  if (close || level == kMostLevels) {
-    cages[index].cone = normal_cone(patch, part, found);
+  if (close || level == (found.bend < 0.0 ? kKinkedLevels : kMostLevels)) {
+    if (found.bend >= 0.0) cages[index].cone = normal_cone(patch, part, found);
     if (cages[index].cone.w <= kWide || level >= kLevelsForCones) return;
   }
   const double half = part.size * 0.5;
@@ -280,6 +358,11 @@ void cage_part(const Patch& patch, const SubTriangle& part, int level, uint32_t 
 bool has_groups(const BakedScene& scene) {
   return std::any_of(scene.cages.begin(), scene.cages.end(),
                      [](const Cage& cage) { return cage.skip > 0; });
+}
+
+bool has_kinks(const BakedScene& scene) {
+  return std::any_of(scene.cages.begin(), scene.cages.end(),
+                     [](const Cage& cage) { return cage.bend == KINKED; });
 }
 
 std::vector<Cage> bake_cages(const BakedScene& scene) {

@@ -19,4 +19,7 @@ BakedScene bake_with_cages(const Mesh& mesh, const SurfaceChoice& choice);
 // Whether some patch has several.
 bool has_groups(const BakedScene& scene);
 
+// Whether some part may have a kink.
+bool has_kinks(const BakedScene& scene);
+
 }  // namespace trisect

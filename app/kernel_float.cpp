@@ -14,6 +14,7 @@ Kernel kernel_of(const BakedScene& scene, const TraceParams& params, const Kerne
           choice.writes_aovs(),
           choice.counts,
           has_groups(scene),
+          has_kinks(scene),
           false};
 }
 

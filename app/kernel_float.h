@@ -29,6 +29,7 @@ struct Kernel {
   bool AOVS;
   bool COUNTS;
   bool GROUPS;
+  bool KINKS;
   bool SHADOWS;
 
 #include "shaders/polar_angle.glsl"
@@ -41,6 +42,9 @@ struct Kernel {
 #include "shaders/cage.glsl"
 // The order is the kernel's.
 #include "shaders/rays.glsl"
+// What bounds a part with a kink.
+#include "shaders/sphere_range.glsl"
+// The solver, then.
 #include "shaders/robust.glsl"
 #include "shaders/shading.glsl"
 // Here a ray's tile means nothing.

@@ -24,7 +24,9 @@ std::shared_ptr<const gpu::Kernel> RayCaster::kernel_for(const gpu::Device& devi
       std::vector<gpu::Specialization>{{CONSTANT_SURFACE, choice.surface},
                                        {CONSTANT_SHELL, choice.shell},
                                        {CONSTANT_SOLVER, solver},
-                                       {CONSTANT_GROUPS, groups ? 1U : 0U}},
+                                       {CONSTANT_GROUPS, groups ? 1U : 0U},
+                                       // Only a divided patch has any.
+                                       {CONSTANT_KINKS, groups ? 1U : 0U}},
       "cast_rays");
 }
 

@@ -22,7 +22,7 @@ std::vector<gpu::Specialization> constants_of(const BakedScene& scene, const Ker
       {CONSTANT_SURFACE, scene.choice.surface},   {CONSTANT_SHELL, scene.choice.shell},
       {CONSTANT_SOLVER, choice.solver},           {CONSTANT_AOVS, choice.writes_aovs() ? 1U : 0U},
       {CONSTANT_COUNTS, choice.counts ? 1U : 0U}, {CONSTANT_GROUPS, has_groups(scene) ? 1U : 0U},
-      {CONSTANT_BALLS, choice.balls ? 1U : 0U}};
+      {CONSTANT_BALLS, choice.balls ? 1U : 0U},   {CONSTANT_KINKS, has_kinks(scene) ? 1U : 0U}};
 }
 
 std::optional<TileLists> lists_for(const gpu::Device& device, const BakedScene& scene,

@@ -42,13 +42,9 @@ END
 
 ## The sphere surface
 
-Without the teapots: at their rims vertices have spheres of a twentieth of the triangle's size, patches are torn, the oracle
-takes tens of milliseconds a ray, and the strays of cages, sampled there over kinks, are no bound: two or three pixels in a
-thousand are wrong.
-
 END
   # shellcheck disable=SC2046
-  accuracy --size "$size" --surface sphere $(paths "${all[@]:0:8}")
+  accuracy --size "$size" --surface sphere $(paths "${all[@]}")
   cat <<END
 
 ## Beside the bisection

@@ -3,6 +3,7 @@
 layout(constant_id = CONSTANT_SURFACE) const uint SURFACE = SURFACE_PHONG;
 layout(constant_id = CONSTANT_SHELL) const uint SHELL = SHELL_NORMAL;
 layout(constant_id = CONSTANT_GROUPS) const bool GROUPS = false;
+layout(constant_id = CONSTANT_KINKS) const bool KINKS = false;
 layout(constant_id = CONSTANT_SOLVER) const uint SOLVER = SOLVER_ROBUST;
 const bool AOVS = false;
 const bool COUNTS = true;

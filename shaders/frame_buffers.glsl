@@ -4,6 +4,7 @@
 const uint SURFACE = VALUE_SURFACE;
 const uint SHELL = VALUE_SHELL;
 const bool GROUPS = VALUE_GROUPS != 0u;
+const bool KINKS = VALUE_KINKS != 0u;
 const uint SOLVER = VALUE_SOLVER;
 const bool AOVS = VALUE_AOVS != 0u;
 const bool COUNTS = VALUE_COUNTS != 0u;
@@ -13,6 +14,7 @@ layout(std430, binding = BINDING_PUSH) readonly restrict buffer PushBlock { Tile
 layout(constant_id = CONSTANT_SURFACE) const uint SURFACE = SURFACE_PHONG;
 layout(constant_id = CONSTANT_SHELL) const uint SHELL = SHELL_NORMAL;
 layout(constant_id = CONSTANT_GROUPS) const bool GROUPS = false;
+layout(constant_id = CONSTANT_KINKS) const bool KINKS = false;
 layout(constant_id = CONSTANT_SOLVER) const uint SOLVER = SOLVER_ROBUST;
 layout(constant_id = CONSTANT_AOVS) const bool AOVS = false;
 layout(constant_id = CONSTANT_COUNTS) const bool COUNTS = false;

@@ -20,6 +20,8 @@ const int MOST_STEPS = 10;
 const int ONCE_STEPS = 6;
 // In weights of the part: a step of this size leaves an error of its square.
 const real ONCE_MOVED = real(1e-4);
+// No step is smaller than the roundings of a weight.
+const real WEIGHT_ROUNDINGS = real(2.4e-7);
 // What the loops of one node take of Walk::steps, beside the evaluations.
 const int VISIT_STEPS = 8;
 
@@ -172,7 +174,7 @@ uint newton(Shape shape, Triangle tri, Cage cage, FramedPatch framed, Node node,
     // may jump, of their size.
     real small_step = least(from) < real(0.0) ? real(1e-6) : real(1e-4);
     real moved = max(abs(target.y - from.y), abs(target.z - from.z));
-    if (moved > small_step * abs(node.size) && !exact) continue;
+    if (moved > max(small_step * abs(node.size), WEIGHT_ROUNDINGS) && !exact) continue;
     // Of a node's border only what it shares with the patch's is of interest: beyond the rest of it lie other
     // nodes, which overlap this one.
     if (held) return FOUND_NOTHING;
@@ -304,8 +306,9 @@ Fit cage_fit(Shape shape, Triangle tri, Cage cage, Node node, bool whole, INOUT(
 }
 
 // Roots of a ray in one part of a patch, from the node walk.path on; the nearest beyond `nearest` that is before
-// walk.hit becomes it. walk.path is WHOLE again at the end, or else where the steps ended.
-void meet_part(Shape shape, Triangle tri, Cage cage, uint part, RayFrame frame, vec3 view, real nearest,
+// walk.hit becomes it. walk.path is WHOLE again at the end, or else where the steps ended. kinks: whether sigma may have
+// one in some part.
+void meet_part(Shape shape, bool kinks, Triangle tri, Cage cage, uint part, RayFrame frame, vec3 view, real nearest,
                INOUT(Walk) walk) {
   FramedPatch framed = sheared_patch(frame, turned_patch(frame, shape.shell, tri));
   real reach = grain(frame, tri);
@@ -324,14 +327,27 @@ void meet_part(Shape shape, Triangle tri, Cage cage, uint part, RayFrame frame, 
   do {
     uint evaluations = walk.counts.evaluations;
     bool last = walk.path >= SMALLEST;
-    Fit fit = cage_fit(shape, tri, cage, node, walk.path == WHOLE, walk.counts.evaluations);
+    bool kinked = kinks && cage.bend == KINKED;
     Node wide = widened(node);
-    Net net = cage_net(framed, fit.corner, fit.edge, wide);
-    bool divide = false;
-    if (near_ray(net, frame.stretch * fit.stray + reach)) {
-      Tangents t = tangents(net);
+    Net net;
+    Mean mean;
+    bool near;
+    if (kinked) {
+      near = kinked_near_ray(shape, tri, framed, wide, reach);
+      // Nothing is known of its tangents.
+      mean.u = vec2(0.0);
+      mean.v = vec2(0.0);
+      mean.area = real(0.0);
+      mean.spread = real(1.0);
+    } else {
+      Fit fit = cage_fit(shape, tri, cage, node, walk.path == WHOLE, walk.counts.evaluations);
+      net = cage_net(framed, fit.corner, fit.edge, wide);
+      near = near_ray(net, frame.stretch * fit.stray + reach);
       real stray = frame.stretch * fit.tangent_stray * abs(wide.size) / real(3.0);
-      Mean mean = mean_tangents(t, stray);
+      if (near) mean = mean_tangents(tangents(net), stray);
+    }
+    bool divide = false;
+    if (near) {
       bool certified = mean.spread < real(1.0);
       divide = !certified && !last;
       int starts = divide ? 0 : certified ? 1 : 3;

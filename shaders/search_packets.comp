@@ -42,7 +42,7 @@ void main() {
       load_by_all(part, cage, tri);
       if (here) {
         if (COUNTS) ++walk.counts.candidates;
-        meet_part(scene_shape(), tri, cage, part, ray.frame, ray.view, ray.nearest, walk);
+        meet_part(scene_shape(), KINKS, tri, cage, part, ray.frame, ray.view, ray.nearest, walk);
         end_in_shadow(walk);
         walk.steps -= VISIT_STEPS;
       }

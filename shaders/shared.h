@@ -31,7 +31,8 @@ struct Cage {
   vec4 cone;
   uint triangle;
   uint flat_part;  // 1: sigma is 0
-  float bend;  // Lipschitz constant of the gradient of sigma - q in the weights 1 and 2, times |D|
+  float bend;  // Lipschitz constant of the gradient of sigma - q in the weights 1 and 2, times |D|;
+               // KINKED if the gradient may jump
   uint skip;   // a group: how many cages follow that lie within its ball, and it has no part of its
                // own
 };
@@ -213,6 +214,8 @@ const uint NO_TRIANGLE = 4294967295u;
 
 // More than any cosine.
 const float NO_CONE = 2.0;
+// Cage::bend of a part with a kink.
+const float KINKED = -1.0;
 // A node is searched with so much of its size around it: no root is lost on the border of two
 // nodes.
 const float OVERLAP = 0.03125;
@@ -296,3 +299,4 @@ const float ERROR_WRONG = -3.0;  // hit, and should not be, or the other way rou
 #define CONSTANT_GROUPS 5
 #define CONSTANT_SHADOWS 6
 #define CONSTANT_BALLS 7
+#define CONSTANT_KINKS 8

@@ -7,5 +7,6 @@
 #include "thesis_field.glsl"
 #include "bisect.glsl"
 #include "cage.glsl"
+#include "sphere_range.glsl"
 #include "robust.glsl"
 #include "shading.glsl"

@@ -1,6 +1,6 @@
 // One ray's way through the patches, and its outputs. Which patches those are say every_part.glsl, tile_parts.glsl or
 // bvh_parts.glsl: one of them is included ahead. Reads params, triangles and cages; SURFACE, SHELL, SOLVER, AOVS, COUNTS,
-// GROUPS and SHADOWS are constants.
+// GROUPS, KINKS and SHADOWS are constants.
 
 Shape scene_shape() {
   Shape shape;
@@ -85,7 +85,7 @@ void walk_robust(PixelRay ray, INOUT(Walk) walk) {
     if (part != NO_TRIANGLE) {
       if (COUNTS && walk.path == WHOLE) ++walk.counts.candidates;
       if (COUNTS) walk.counts.bytes += TRIANGLE_BYTES + CAGE_BYTES;
-      meet_part(scene_shape(), triangles[cages[part].triangle], cages[part], part, ray.frame, ray.view, ray.nearest,
+      meet_part(scene_shape(), KINKS, triangles[cages[part].triangle], cages[part], part, ray.frame, ray.view, ray.nearest,
                 walk);
       end_in_shadow(walk);
       if (walk.path == WHOLE) walk.item = item_after(walk.item);

@@ -42,7 +42,7 @@ bool walk_query(PixelRay ray, inout Walk walk) {
     }
     precise Cage cage = cages[part];
     precise Triangle tri = triangles[cage.triangle];
-    meet_part(scene_shape(), tri, cage, part, ray.frame, ray.view, ray.nearest, walk);
+    meet_part(scene_shape(), KINKS, tri, cage, part, ray.frame, ray.view, ray.nearest, walk);
     end_in_shadow(walk);
     walk.steps -= VISIT_STEPS;
     if (walk.path != WHOLE || walk.steps <= 0) {

@@ -76,6 +76,8 @@ INSTANTIATE_TEST_SUITE_P(Assets, Promise,
                                            Case{"torus", {SURFACE_PHONG, 0.65, SHELL_HEIGHT}},
                                            Case{"teapot", {SURFACE_PHONG, 0.65, SHELL_NORMAL}},
                                            Case{"saddle", {SURFACE_SPHERE, 0.0, SHELL_NORMAL}},
+                                           Case{"teapot", {SURFACE_SPHERE, 0.0, SHELL_NORMAL}},
+                                           Case{"teapot", {SURFACE_SPHERE, 0.0, SHELL_HEIGHT}},
                                            Case{"cube", {SURFACE_FLAT, 0.0, SHELL_NORMAL}}),
                          [](const ::testing::TestParamInfo<Case>& kept) {
                            std::string name = std::string(kept.param.asset) + "_" +

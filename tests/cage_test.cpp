@@ -6,6 +6,7 @@
 
 #include <random>
 
+#include "app/cage_net.h"
 #include "app/kernel_float.h"
 #include "app/surface_double.h"
 #include "app/trace_settings.h"
@@ -68,6 +69,80 @@ TEST(Cage, LinesWithinItsConeCrossThePartOneWay) {
     }
   }
   EXPECT_GT(cones, 1000U);
+}
+
+// Of a point of a triangle, each as likely as any other.
+dvec3 random_weights(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const double a = std::sqrt(unit(random));
+  const double b = unit(random);
+  return {1.0 - a, a * b, a * (1.0 - b)};
+}
+
+// What is known of a part, at points of it and of its overlap: how far the surface is from the
+// cage, and that it lies in the ball.
+TEST(Cage, HoldsThePart) {
+  std::mt19937_64 random(5);
+  std::size_t kinked = 0;
+  for (const Choice& choice : {Choice{"sphere-20", {SURFACE_SPHERE, 0.0, SHELL_NORMAL}},
+                               Choice{"saddle", {SURFACE_SPHERE, 0.0, SHELL_HEIGHT}},
+                               Choice{"teapot", {SURFACE_SPHERE, 0.0, SHELL_HEIGHT}}}) {
+    const BakedScene scene = caged(choice);
+    const in_double::Shape shape = shape_of(choice.choice);
+    for (std::size_t k = 0; k < scene.cages.size(); k += 3) {
+      const Cage& cage = scene.cages[k];
+      if (cage.skip > 0) continue;
+      if (cage.bend == KINKED) ++kinked;
+      const in_double::Triangle tri = widen(scene.triangles[cage.triangle]);
+      const CageQuadratic q{dvec3(glm::vec3(cage.corner)), dvec3(glm::vec3(cage.edge))};
+      for (int i = 0; i < 10; ++i) {
+        const dvec3 l = random_weights(random);
+        const dvec3 w = weights_in(cage, l * (1.0 + 3.0 * OVERLAP) - dvec3(double{OVERLAP}));
+        const dvec3 D = in_double::shell_direction(shape.shell, tri, w);
+        const double e = in_double::displacement(shape, tri, w) - q.blossom(w, w);
+        ASSERT_LE(std::abs(e) * glm::length(D), cage.corner.w) << choice.model << " part " << k;
+        const dvec3 S = in_double::surface_point(shape, tri, w);
+        ASSERT_LE(glm::distance(S, dvec3(cage.ball)), cage.ball.w) << choice.model << " part " << k;
+      }
+    }
+  }
+  EXPECT_GT(kinked, 1000U);
+}
+
+// The kernel's bound of a part with a kink, over nodes of all sizes.
+TEST(SphereRange, HoldsSigma) {
+  std::mt19937_64 random(6);
+  const TraceParams no_frame{};
+  double widths = 0.0;
+  double seen = 0.0;
+  const BakedScene scene = caged({"teapot", {SURFACE_SPHERE, 0.0, SHELL_HEIGHT}});
+  in_float::Kernel kernel = in_float::kernel_of(scene, no_frame, {});
+  const in_double::Shape shape = shape_of(scene.choice);
+  for (const Cage& cage : scene.cages) {
+    if (cage.bend != KINKED || cage.skip > 0) continue;
+    const Triangle& single = scene.triangles[cage.triangle];
+    const in_double::Triangle tri = widen(single);
+    uint path = kernel.WHOLE;
+    for (int level = 0; level < 9; ++level, path = path * 4 + random() % 4) {
+      const in_float::Node node = kernel.widened(kernel.node_at(cage.node, path));
+      const glm::vec2 range = kernel.sphere_range(kernel.scene_shape(), single, node);
+      double lo = 1e30;
+      double hi = -1e30;
+      for (int i = 0; i < 10; ++i) {
+        const dvec3 w = dvec3(node.origin) + random_weights(random) * double{node.size};
+        const double sigma = in_double::displacement(shape, tri, w);
+        lo = std::min(lo, sigma);
+        hi = std::max(hi, sigma);
+      }
+      ASSERT_LE(range.x, lo) << "triangle " << cage.triangle << " level " << level;
+      ASSERT_GE(range.y, hi) << "triangle " << cage.triangle << " level " << level;
+      widths += static_cast<double>(range.y) - range.x;
+      seen += hi - lo;
+    }
+  }
+  EXPECT_GT(seen, 100.0);
+  // Interval arithmetic is wider than it must be, and ten points do not see all; not more.
+  EXPECT_LT(widths, 10.0 * seen);
 }
 
 // The image positions of points of the surface lie in the box and within the lines that the kernel

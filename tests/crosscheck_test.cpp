@@ -48,9 +48,6 @@ class CrosscheckMatrix : public Crosscheck, public ::testing::WithParamInterface
 TEST_P(CrosscheckMatrix, VulkanAndOpenGlAgree) {
   const Combination& combination = GetParam();
   for (const std::string& asset : test::asset_names()) {
-    // Their normals behind the faces tear the sphere surface into ten thousands of cages.
-    const bool torn = asset.starts_with("teapot") && combination.choice.surface == SURFACE_SPHERE;
-    if (torn && combination.solver == SOLVER_ROBUST) continue;
 #ifndef TRISECT_SLOW
     // A third of the time of all models: left to the slow tests.
     if (asset == "teapot-1000") continue;

@@ -272,6 +272,7 @@ TEST(Layout, InterfaceIsTheKernels) {
                                                         {CONSTANT_SOLVER, "SOLVER"},
                                                         {CONSTANT_COUNTS, "COUNTS"},
                                                         {CONSTANT_GROUPS, "GROUPS"},
+                                                        {CONSTANT_KINKS, "KINKS"},
                                                         {CONSTANT_SHADOWS, "SHADOWS"}}));
 }
 
