@@ -36,18 +36,17 @@ TEST_P(Watertight, HasNoLeak) {
   RecordProperty("suspects", static_cast<int>(leaks.suspects));
 }
 
-INSTANTIATE_TEST_SUITE_P(Closed, Watertight,
-                         ::testing::Values(Closed{"sphere-20", SURFACE_PHONG},
-                                           Closed{"sphere-20", SURFACE_SPHERE},
-                                           Closed{"torus", SURFACE_PHONG},
-                                           Closed{"capsule", SURFACE_PHONG},
-                                           Closed{"cube", SURFACE_FLAT}),
-                         [](const ::testing::TestParamInfo<Closed>& closed) {
-                           std::string name = std::string(closed.param.asset) + "_" +
-                                              std::to_string(closed.param.surface);
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Closed, Watertight,
+    ::testing::Values(Closed{"sphere-20", SURFACE_PHONG}, Closed{"sphere-20", SURFACE_SPHERE},
+                      Closed{"torus", SURFACE_PHONG}, Closed{"capsule", SURFACE_PHONG},
+                      Closed{"cube", SURFACE_FLAT}, Closed{"teapot", SURFACE_PHONG}),
+    [](const ::testing::TestParamInfo<Closed>& closed) {
+      std::string name =
+          std::string(closed.param.asset) + "_" + std::to_string(closed.param.surface);
+      std::replace(name.begin(), name.end(), '-', '_');
+      return name;
+    });
 
 }  // namespace
 }  // namespace trisect

@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <map>
+#include <set>
+#include <utility>
 
 #include "app/mesh_builder.h"
 
@@ -22,6 +25,48 @@ std::string asset_path(const std::string& name) {
 
 Mesh load_asset(const std::string& name) {
   return build_mesh(read_obj(asset_path(name)), name).mesh;
+}
+
+Mesh without_holes(Mesh mesh) {
+  std::set<std::pair<uint32_t, uint32_t>> edges;
+  for (const MeshTriangle& t : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) edges.emplace(t.vertex[i], t.vertex[(i + 1) % 3]);
+  }
+  // What follows a vertex along a hole's border, and the vertex's normal.
+  struct Step {
+    uint32_t next;
+    uint32_t normal;
+  };
+  std::map<uint32_t, Step> border;
+  for (const MeshTriangle& t : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const uint32_t next = t.vertex[(i + 1) % 3];
+      if (!edges.contains({next, t.vertex[i]})) border[t.vertex[i]] = {next, t.normal[i]};
+    }
+  }
+  while (!border.empty()) {
+    std::vector<std::pair<uint32_t, uint32_t>> hole;  // vertices and their normals
+    dvec3 middle(0.0);
+    for (uint32_t vertex = border.begin()->first; border.contains(vertex);) {
+      const Step step = border.extract(vertex).mapped();
+      hole.emplace_back(vertex, step.normal);
+      middle += mesh.positions[vertex];
+      vertex = step.next;
+    }
+    middle /= static_cast<double>(hole.size());
+    const auto center = static_cast<uint32_t>(mesh.positions.size());
+    const auto center_normal = static_cast<uint32_t>(mesh.normals.size());
+    dvec3 area(0.0);
+    for (std::size_t i = 0; i < hole.size(); ++i) {
+      const auto [a, a_normal] = hole[i];
+      const auto [b, b_normal] = hole[(i + 1) % hole.size()];
+      area += glm::cross(mesh.positions[b] - middle, mesh.positions[a] - middle);
+      mesh.triangles.push_back({{b, a, center}, {b_normal, a_normal, center_normal}});
+    }
+    mesh.positions.push_back(middle);
+    mesh.normals.push_back(glm::normalize(area));
+  }
+  return mesh;
 }
 
 Mesh one_triangle(const std::array<dvec3, 3>& positions, const std::array<dvec3, 3>& normals) {

@@ -21,6 +21,10 @@ std::string asset_path(const std::string& name);
 
 Mesh load_asset(const std::string& name);
 
+// The mesh with every hole in it filled by a fan about its middle. Along the border the fan has the
+// mesh's own normals. A mesh without holes stays as it is.
+Mesh without_holes(Mesh mesh);
+
 // A mesh of one triangle.
 Mesh one_triangle(const std::array<glm::dvec3, 3>& positions,
                   const std::array<glm::dvec3, 3>& normals);

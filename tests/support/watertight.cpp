@@ -36,7 +36,8 @@ class Aim {
     const dvec3 w = weights();
     const dvec3 point = in_double::surface_point(shape, tri, w);
     const dvec3 normal = in_double::geometric_normal(shape, tri, w);
-    if (random_() % 2 == 0) return from_outside(point);
+    // Where the tangents are parallel there is no below.
+    if (random_() % 2 == 0 || glm::any(glm::isnan(normal))) return from_outside(point);
     // A little below the surface, which no asset is thinner than.
     return from_inside(point - normal * (0.02 * scene_.radius));
   }
@@ -83,7 +84,8 @@ class Aim {
 }  // namespace
 
 Leaks count_leaks(const std::string& asset, uint32_t surface, std::size_t count, uint64_t seed) {
-  BakedScene scene = bake_with_cages(load_asset(asset), {surface, 0.65, SHELL_NORMAL});
+  BakedScene scene =
+      bake_with_cages(without_holes(load_asset(asset)), {surface, 0.65, SHELL_NORMAL});
   scene.bvh = build_bvh(scene);
   const Oracle oracle(scene);
   RayCaster caster(validated_device(), scene, make_params(scene, {}), SOLVER_ROBUST);

@@ -15,9 +15,9 @@ struct Leaks {
   std::size_t undecided = 0;  // of these
 };
 
-// Casts `count` rays on the validated device at a closed asset in the normal shell: at points of
-// its surface, within 1e-6 of its edges, at its edges and at its vertices, from outside and from
-// inside.
+// Casts `count` rays on the validated device at an asset, its holes filled, in the normal shell: at
+// points of its surface, within 1e-6 of its edges, at its edges and at its vertices, from outside
+// and from inside.
 Leaks count_leaks(const std::string& asset, uint32_t surface, std::size_t count, uint64_t seed);
 
 }  // namespace trisect::test
