@@ -122,7 +122,8 @@ double steepest_change(const std::vector<Sample>& samples) {
   double steepest = 0.0;
   // Row i begins where the shorter ones before it end.
   const auto at = [&](int i, int j) -> const Sample& {
-    return samples[static_cast<std::size_t>(i * (kSamples + 1) - i * (i - 1) / 2 + j)];
+    const int row = i * (kSamples + 1) - i * (i - 1) / 2;
+    return samples[static_cast<std::size_t>(row + j)];
   };
   constexpr std::array<glm::ivec2, 4> steps{glm::ivec2(1, 0), {0, 1}, {1, -1}, {1, 1}};
   for (int i = 0; i <= kSamples; ++i) {

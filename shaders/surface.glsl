@@ -153,9 +153,14 @@ real phong_derivative(Triangle tri, vec3 w, vec3 dw, vec3 T, vec3 dT, vec3 D, ve
   return alpha * (dot3(dD, K) + dot3(D, dK) - real(2.0) * dot3(D, K) * dot3(D, dD) / DD) / DD;
 }
 
+// The sign with which the blended curvature's angle turns: the same within the triangle; beyond the edge to b, where it
+// is that of the mirror image, the other; none beyond the edge to a, where it is held. a, b: their weights.
+real beyond_edges(real a, real b) { return a < real(0.0) ? real(-1.0) : b < real(0.0) ? real(0.0) : real(1.0); }
+
 // Derivative of s_i when T moves by dT and D by dD. `turn` is +n or -n, the axis about which the angle from b
-// to the point grows.
-real sphere_derivative(vec3 T, vec3 dT, vec3 D, vec3 dD, real s, vec3 vertex, vec3 N, vec3 b, vec4 data, vec3 turn) {
+// to the point grows. side: beyond_edges.
+real sphere_derivative(vec3 T, vec3 dT, vec3 D, vec3 dD, real s, vec3 vertex, vec3 N, vec3 b, vec4 data, vec3 turn,
+                       real side) {
   vec3 x0 = T - vertex;
   real xx = dot3(x0, x0);
   real DD = dot3(D, D);
@@ -169,7 +174,7 @@ real sphere_derivative(vec3 T, vec3 dT, vec3 D, vec3 dD, real s, vec3 vertex, ve
     return s * relative;
   }
   real c = blended_curvature(T, vertex, b, data);
-  real dc = (data.x - data.y) * dot3(cross3(turn, x0), dT) / (xx * data.z);
+  real dc = side * (data.x - data.y) * dot3(cross3(turn, x0), dT) / (xx * data.z);
   real A = c * DD;
   real B = c * dot3(x0, D) + dot3(D, N);
   real dA = dc * DD + real(2.0) * c * dot3(D, dD);
@@ -224,12 +229,13 @@ Displacement displacement_and_derivatives(Shape shape, Triangle tri, vec3 w) {
   vec3 s = sphere_heights(tri, T, D);
   // The angle at a vertex is measured from neighbour b; seen along n, b follows a at vertices 0 and 2
   // (so the angle shrinks as the point turns about +n) and precedes it at vertex 1.
-  vec3 su = vec3(sphere_derivative(T, Tu, D, Du, s.x, P0, N0, P2, tri.VertexData[0], -n),
-                 sphere_derivative(T, Tu, D, Du, s.y, P1, N1, P2, tri.VertexData[1], n),
-                 sphere_derivative(T, Tu, D, Du, s.z, P2, N2, P1, tri.VertexData[2], -n));
-  vec3 sv = vec3(sphere_derivative(T, Tv, D, Dv, s.x, P0, N0, P2, tri.VertexData[0], -n),
-                 sphere_derivative(T, Tv, D, Dv, s.y, P1, N1, P2, tri.VertexData[1], n),
-                 sphere_derivative(T, Tv, D, Dv, s.z, P2, N2, P1, tri.VertexData[2], -n));
+  vec3 side = vec3(beyond_edges(w.y, w.z), beyond_edges(w.x, w.z), beyond_edges(w.x, w.y));
+  vec3 su = vec3(sphere_derivative(T, Tu, D, Du, s.x, P0, N0, P2, tri.VertexData[0], -n, side.x),
+                 sphere_derivative(T, Tu, D, Du, s.y, P1, N1, P2, tri.VertexData[1], n, side.y),
+                 sphere_derivative(T, Tu, D, Du, s.z, P2, N2, P1, tri.VertexData[2], -n, side.z));
+  vec3 sv = vec3(sphere_derivative(T, Tv, D, Dv, s.x, P0, N0, P2, tri.VertexData[0], -n, side.x),
+                 sphere_derivative(T, Tv, D, Dv, s.y, P1, N1, P2, tri.VertexData[1], n, side.y),
+                 sphere_derivative(T, Tv, D, Dv, s.z, P2, N2, P1, tri.VertexData[2], -n, side.z));
   sigma.s = dot3(w, s);
   sigma.u = dot3(du, s) + dot3(w, su);
   sigma.v = dot3(dv, s) + dot3(w, sv);

@@ -123,7 +123,7 @@ TEST(SphereRange, HoldsSigma) {
     const Triangle& single = scene.triangles[cage.triangle];
     const in_double::Triangle tri = widen(single);
     uint path = kernel.WHOLE;
-    for (int level = 0; level < 9; ++level, path = path * 4 + random() % 4) {
+    for (int level = 0; level < 9; ++level, path = path << 2U | (random() & 3U)) {
       const in_float::Node node = kernel.widened(kernel.node_at(cage.node, path));
       const glm::vec2 range = kernel.sphere_range(kernel.scene_shape(), single, node);
       double lo = 1e30;

@@ -21,18 +21,19 @@ constexpr std::size_t kRays = 200'000;
 struct Closed {
   const char* asset;
   uint surface;
+  std::size_t rays = kRays;
 };
 
 class Watertight : public test::GpuTest, public ::testing::WithParamInterface<Closed> {};
 
 TEST_P(Watertight, HasNoLeak) {
   const Closed& model = GetParam();
-  const test::Leaks leaks = test::count_leaks(model.asset, model.surface, kRays, 11);
-  EXPECT_EQ(leaks.rays, kRays);
+  const test::Leaks leaks = test::count_leaks(model.asset, model.surface, model.rays, 11);
+  EXPECT_EQ(leaks.rays, model.rays);
   EXPECT_EQ(leaks.leaks, 0U);
   EXPECT_EQ(leaks.nans, 0U);
   // Rays from outside that slide by at a silhouette; were they many, the test would ask nothing.
-  EXPECT_LT(leaks.suspects, kRays / 20);
+  EXPECT_LT(leaks.suspects, model.rays / 20);
   RecordProperty("suspects", static_cast<int>(leaks.suspects));
 }
 
@@ -40,7 +41,9 @@ INSTANTIATE_TEST_SUITE_P(
     Closed, Watertight,
     ::testing::Values(Closed{"sphere-20", SURFACE_PHONG}, Closed{"sphere-20", SURFACE_SPHERE},
                       Closed{"torus", SURFACE_PHONG}, Closed{"capsule", SURFACE_PHONG},
-                      Closed{"cube", SURFACE_FLAT}, Closed{"teapot", SURFACE_PHONG}),
+                      Closed{"cube", SURFACE_FLAT}, Closed{"teapot", SURFACE_PHONG},
+                      // Rays this incoherent wait for their neighbours on the way through kinks.
+                      Closed{"teapot", SURFACE_SPHERE, kRays / 10}),
     [](const ::testing::TestParamInfo<Closed>& closed) {
       std::string name =
           std::string(closed.param.asset) + "_" + std::to_string(closed.param.surface);
