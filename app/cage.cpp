@@ -123,7 +123,7 @@ double steepest_change(const std::vector<Sample>& samples) {
   // Row i begins where the shorter ones before it end.
   const auto at = [&](int i, int j) -> const Sample& {
     const int row = i * (kSamples + 1) - i * (i - 1) / 2;
-    return samples[static_cast<std::size_t>(row + j)];
+    return samples[static_cast<std::size_t>(row) + static_cast<std::size_t>(j)];
   };
   constexpr std::array<glm::ivec2, 4> steps{glm::ivec2(1, 0), {0, 1}, {1, -1}, {1, 1}};
   for (int i = 0; i <= kSamples; ++i) {
