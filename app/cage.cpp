@@ -29,6 +29,8 @@ constexpr double kTangentsClose = 0.1;
 constexpr int kMostLevels = 6;
 // A part with a kink is divided further by the kernel, for the few rays that come near.
 constexpr int kKinkedLevels = 5;
+// Interval arithmetic is tighter over pieces of a part: 4^2 of them.
+constexpr int kProofDivisions = 2;
 
 // Rays are quick along the directions of a part's cone (Cage::cone), whose w should be at most so
 // large; else the part is divided, for this reason no further than to 4^2 parts of a patch.
@@ -81,11 +83,6 @@ CageQuadratic through(const SubTriangle& part, Value&& value) {
   whole.edge = {local.blossom(inside(0), inside(1)), local.blossom(inside(1), inside(2)),
                 local.blossom(inside(0), inside(2))};
   return whole;
-}
-
-double longest_direction(const CagedPatch& patch) {
-  return std::max({glm::length(patch.corners.D[0]), glm::length(patch.corners.D[1]),
-                   glm::length(patch.corners.D[2])});
 }
 
 // sigma - q and its gradient.
@@ -147,11 +144,6 @@ void raise_tangent_stray(const CagedPatch& patch, const Sample& a, double& stray
   raise(stray, glm::length(D * a.gradient.y + (patch.corners.D[2] - patch.corners.D[0]) * a.e));
 }
 
-Part part_of(const SubTriangle& part) {
-  const auto corner = [&](int k) { return part.origin + corner_weights(k) * part.size; };
-  return {corner(0), corner(1), corner(2)};
-}
-
 // Whether sigma may have a kink over a part, as far as so many divisions tell.
 bool may_be_kinked(const CagedPatch& patch, const Part& part, int divisions) {
   if (sphere_is_smooth(patch.ranges, part)) return false;
@@ -179,17 +171,15 @@ double proven_stray(const CagedPatch& patch, const CageQuadratic& q, const Part&
     quadratic = hull(quadratic, q.blossom(part[i], part[i]));
     quadratic = hull(quadratic, q.blossom(part[i], part[(i + 1) % 3]));
   }
-  double longest = 0.0;
-  for (const dvec3& D : corners.D) raise(longest, glm::length(D));
   const Interval e = *sigma - quadratic;
-  return std::max(-e.lo, e.hi) * longest;
+  return std::max(-e.lo, e.hi) * longest_of(corners.D);
 }
 
 // The quadratic of a part of the sphere surface that may have a kink.
 Fit kinked_fit(const CagedPatch& patch, const SubTriangle& part, Fit fit, double rounded) {
-  constexpr int divisions = 2;
   constexpr double most = std::numeric_limits<float>::max();
-  const double stray = proven_stray(patch, fit.q, part_of(enlarged(part, OVERLAP)), divisions);
+  const double stray =
+      proven_stray(patch, fit.q, corners_of(enlarged(part, OVERLAP)), kProofDivisions);
   fit.stray = std::isfinite(stray) ? stray + rounded : most;
   fit.tangent_stray = most;
   fit.bend = KINKED;
@@ -204,7 +194,7 @@ Fit fit(const CagedPatch& patch, const SubTriangle& part) {
                 : through(part, [&](const dvec3& w) {
                     return in_double::displacement(patch.shape, patch.tri, w);
                   });
-  const double longest_D = longest_direction(patch);
+  const double longest_D = longest_of(patch.corners.D);
   // Rounding of the coefficients to single precision.
   constexpr double rounding = 2e-7;
   const dvec3 size = glm::max(glm::abs(fit.q.corner), glm::abs(fit.q.edge));
@@ -214,9 +204,8 @@ Fit fit(const CagedPatch& patch, const SubTriangle& part) {
     fit.tangent_stray = rounded;
     return fit;
   }
-  constexpr int divisions = 2;
   if (patch.shape.surface == SURFACE_SPHERE &&
-      may_be_kinked(patch, part_of(enlarged(part, CONE_MARGIN)), divisions)) {
+      may_be_kinked(patch, corners_of(enlarged(part, CONE_MARGIN)), kProofDivisions)) {
     return kinked_fit(patch, part, fit, rounded);
   }
   const SubTriangle large = enlarged(part, OVERLAP);
@@ -327,7 +316,7 @@ Cage cage_of(const CagedPatch& patch, const SubTriangle& part, const Fit& fit, u
   constexpr double nothing = 1e-9;
   const dvec3 most = glm::max(glm::abs(fit.q.corner), glm::abs(fit.q.edge));
   const double displacement =
-      std::max({most.x, most.y, most.z}) * longest_direction(patch) + fit.stray;
+      std::max({most.x, most.y, most.z}) * longest_of(patch.corners.D) + fit.stray;
   const bool no_displacement = displacement <= nothing * patch.tri.TriNormal.w;
   // The kernel meets the patch's plane, whatever the part: only the whole may be it.
   cage.flat_part = no_displacement && part.size == 1.0 ? 1 : 0;
@@ -342,8 +331,9 @@ void cage_part(const CagedPatch& patch, const SubTriangle& part, int level, uint
       found.stray <= kClose * size && found.tangent_stray <= kTangentsClose * patch.tri.TriNormal.w;
   const std::size_t index = cages.size();
   cages.push_back(cage_of(patch, part, found, triangle));
-  if (close || level == (found.bend < 0.0 ? kKinkedLevels : kMostLevels)) {
-    if (found.bend >= 0.0) cages[index].cone = normal_cone(patch, part, found);
+  const bool kinked = cages[index].bend == KINKED;
+  if (close || level == (kinked ? kKinkedLevels : kMostLevels)) {
+    if (!kinked) cages[index].cone = normal_cone(patch, part, found);
     if (cages[index].cone.w <= kWide || level >= kLevelsForCones) return;
   }
   const double half = part.size * 0.5;

@@ -8,6 +8,11 @@ SubTriangle enlarged(const SubTriangle& part, double margin) {
   return {part.origin - dvec3(margin * part.size), part.size * (1.0 + 3.0 * margin)};
 }
 
+std::array<dvec3, 3> corners_of(const SubTriangle& part) {
+  const auto corner = [&](int k) { return part.origin + corner_weights(k) * part.size; };
+  return {corner(0), corner(1), corner(2)};
+}
+
 Corners corners_of(const in_double::Triangle& tri, uint shell) {
   Corners corners{};
   for (int i = 0; i < 3; ++i) {
@@ -25,12 +30,10 @@ dvec3 corner_weights(int k) {
 }
 
 ControlNet net_of(const Corners& corners, const SubTriangle& part, const CageQuadratic& q) {
-  std::array<dvec3, 3> w{};
+  const std::array<dvec3, 3> w = corners_of(part);
   std::array<dvec3, 3> T{};
   std::array<dvec3, 3> D{};
-  for (int k = 0; k < 3; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    w[i] = part.origin + corner_weights(k) * part.size;
+  for (std::size_t i = 0; i < 3; ++i) {
     T[i] = in_double::weigh(w[i], corners.P[0], corners.P[1], corners.P[2]);
     D[i] = in_double::weigh(w[i], corners.D[0], corners.D[1], corners.D[2]);
   }

@@ -18,6 +18,9 @@ struct SubTriangle {
 // The part with so much of its size around it on every side.
 SubTriangle enlarged(const SubTriangle& part, double margin);
 
+// The weights of its corners.
+std::array<glm::dvec3, 3> corners_of(const SubTriangle& part);
+
 // Bernstein coefficients of a quadratic in the weights of the whole triangle.
 struct CageQuadratic {
   glm::dvec3 corner{0.0};

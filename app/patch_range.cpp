@@ -50,10 +50,6 @@ auto cubic_of(const Quadratic<Value>& q, const std::array<Linear, 3>& l, const P
   return coefficients;
 }
 
-double longest_of(const std::array<dvec3, 3>& vectors) {
-  return std::max({glm::length(vectors[0]), glm::length(vectors[1]), glm::length(vectors[2])});
-}
-
 // The flat part with a ball of `radius` about each of its points.
 Enclosure around_base(const PartCorners& corners, double radius) {
   Enclosure e{};
@@ -94,19 +90,6 @@ Quadratic<dvec3> phong_offset_over(const Patch& patch, const Part& part) {
   return quadratic_over(part, V);
 }
 
-// A number that |D|^2 does not fall below over a part. `lengths`: its Bernstein coefficients.
-double least_length_squared(const PartCorners& corners, const Patch& patch,
-                            const Quadratic<double>& lengths) {
-  const dvec3 n = glm::normalize(glm::cross(patch.P[1] - patch.P[0], patch.P[2] - patch.P[0]));
-  const auto& D = corners.D;
-  // D.n is linear.
-  const double height =
-      std::max(0.0, std::min({glm::dot(D[0], n), glm::dot(D[1], n), glm::dot(D[2], n)}));
-  const double least = *std::min_element(lengths.begin(), lengths.end());
-  const double largest = *std::max_element(lengths.begin(), lengths.end());
-  return std::max(least - kRounding * largest, height * height * (1.0 - 1e-6));
-}
-
 Enclosure enclose_quotient(const Patch& patch, const Part& part, const PartCorners& corners,
                            double alpha) {
   const auto& [T, D] = corners;
@@ -117,7 +100,7 @@ Enclosure enclose_quotient(const Patch& patch, const Part& part, const PartCorne
       around_base(corners, farthest + kRounding * std::abs(alpha) * patch.longest * 4.0);
   const Quadratic<double> lengths{glm::dot(D[0], D[0]), glm::dot(D[1], D[1]), glm::dot(D[2], D[2]),
                                   glm::dot(D[0], D[1]), glm::dot(D[1], D[2]), glm::dot(D[2], D[0])};
-  const double least = least_length_squared(corners, patch, lengths);
+  const double least = direction_square_range(patch, corners).lo;
   if (!(least > 0.0)) return wide;
 
   std::array<double, 3> L{};
@@ -184,6 +167,7 @@ Patch patch_of(uint shell, const Triangle& tri) {
         shell == SHELL_HEIGHT ? patch.N[k] / static_cast<double>(tri.NormDot[i]) : patch.N[k];
     patch.data[k] = dvec3(tri.VertexData[i]);
   }
+  patch.n = glm::normalize(glm::cross(patch.P[1] - patch.P[0], patch.P[2] - patch.P[0]));
   patch.longest = static_cast<double>(tri.TriNormal.w);
   return patch;
 }

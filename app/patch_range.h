@@ -2,6 +2,7 @@
 // patches (patch_bounds.h) and the reference search (patch_search.h) are made.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <glm/glm.hpp>
 #include <optional>
@@ -18,6 +19,7 @@ struct Patch {
   std::array<glm::dvec3, 3> N;
   std::array<glm::dvec3, 3> D;     // the shell's directions
   std::array<glm::dvec3, 3> data;  // curvatures and angle
+  glm::dvec3 n;                    // unit face normal
   double longest;                  // edge
 };
 
@@ -33,6 +35,10 @@ std::array<Part, 4> quarter(const Part& part);
 
 inline glm::dvec3 weigh(const glm::dvec3& w, const std::array<glm::dvec3, 3>& p) {
   return p[0] * w.x + p[1] * w.y + p[2] * w.z;
+}
+
+inline double longest_of(const std::array<glm::dvec3, 3>& vectors) {
+  return std::max({glm::length(vectors[0]), glm::length(vectors[1]), glm::length(vectors[2])});
 }
 
 // Of a part: its corners on the base triangle and the shell's directions there. Both are linear

@@ -26,22 +26,10 @@ Interval product_range(const std::array<dvec3, 3>& a, const std::array<dvec3, 3>
   return range;
 }
 
-// Range of |D|^2: (D.n)^2 at least, n the face normal, which the coefficients may miss by much
-// where directions turn fast.
-Interval square_range(const Patch& patch, const std::array<dvec3, 3>& D) {
-  const dvec3 n = glm::cross(patch.P[1] - patch.P[0], patch.P[2] - patch.P[0]);
-  const double above = linear_range(D, n).lo;
-  const Interval range = product_range(D, D);
-  if (!(above > 0.0)) return range;
-  const double least = divide_by_positive(square(above), dot(n, n)).lo;
-  return {std::max(range.lo, least), range.hi};
-}
-
 // Range of the curvature at vertex i. Seen from there a convex part spans the angles of its
 // corners, T; what matters of an angle is its size.
 Interval curvature_range(const Patch& patch, std::size_t i, const std::array<dvec3, 3>& T) {
   const dvec3 e = patch.P[i == 2 ? 1 : 2] - patch.P[i];
-  const dvec3 n = glm::cross(patch.P[1] - patch.P[0], patch.P[2] - patch.P[0]);
   double lowest = kInfinity;
   double highest = 0.0;
   bool left = false;
@@ -53,8 +41,9 @@ Interval curvature_range(const Patch& patch, std::size_t i, const std::array<dve
     const double angle = std::atan2(glm::length(sine), glm::dot(x, e));
     lowest = std::min(lowest, angle);
     highest = std::max(highest, angle);
-    left = left || glm::dot(sine, n) <= 0.0;
-    right = right || glm::dot(sine, n) >= 0.0;
+    // Written so that both hold where the triangle has no area and no normal.
+    left = left || !(glm::dot(sine, patch.n) > 0.0);
+    right = right || !(glm::dot(sine, patch.n) < 0.0);
   }
   // Across the edge, or its other side, or around the vertex, which has a corner behind it then.
   const bool across = left && right;
@@ -80,6 +69,7 @@ struct HeightQuadratic {
   Interval A;
   Interval B;
   Interval C;
+  Interval discriminant;
 };
 
 HeightQuadratic height_quadratic(const Patch& patch, std::size_t i, const PartCorners& corners) {
@@ -87,13 +77,14 @@ HeightQuadratic height_quadratic(const Patch& patch, std::size_t i, const PartCo
   HeightQuadratic q{};
   q.x = {T[0] - patch.P[i], T[1] - patch.P[i], T[2] - patch.P[i]};
   q.c = curvature_range(patch, i, T);
-  q.DD = square_range(patch, D);
+  q.DD = direction_square_range(patch, corners);
   q.DN = linear_range(D, patch.N[i]);
   q.xD = product_range(q.x, D);
   q.xx = product_range(q.x, q.x);
   q.A = q.c * q.DD;
   q.B = q.c * q.xD + q.DN;
   q.C = q.c * q.xx + Interval(2.0) * linear_range(q.x, patch.N[i]);
+  q.discriminant = square(q.B) - q.A * q.C;
   return q;
 }
 
@@ -103,8 +94,7 @@ Interval intersection(const Interval& a, const Interval& b) {
 
 // The range of sphere_root (shaders/surface.glsl), or nothing where A and B may both vanish.
 std::optional<Interval> root_range(const HeightQuadratic& q) {
-  const Interval discriminant = square(q.B) - q.A * q.C;
-  const Interval discriminant_root = root(discriminant);
+  const Interval discriminant_root = root(q.discriminant);
   std::optional<Interval> range;
   // (root - B) / A, whether the line meets the sphere or not.
   if (q.A.lo > 0.0) range = divide_by_positive(discriminant_root - q.B, q.A);
@@ -113,7 +103,7 @@ std::optional<Interval> root_range(const HeightQuadratic& q) {
     // -C / (B + root) where it meets it. Where it does not, B^2 <= A C, so that -B / A lies between
     // 0 and -C / B.
     Interval other = -divide_by_positive(q.C, q.B + discriminant_root);
-    if (discriminant.lo <= 0.0) other = hull(other, hull(0.0, -divide_by_positive(q.C, q.B)));
+    if (q.discriminant.lo <= 0.0) other = hull(other, hull(0.0, -divide_by_positive(q.C, q.B)));
     range = range ? intersection(*range, other) : other;
   }
   return range;
@@ -152,7 +142,7 @@ Interval derivative_range(const Patch& patch, std::size_t i, const PartCorners& 
   const Interval dB =
       dc * q.xD + q.c * (linear_range(corners.D, dT) + linear_range(q.x, dD)) + dot(dD, N);
   const Interval dC = dc * q.xx + Interval(2.0) * (q.c * linear_range(q.x, dT) + dot(dT, N));
-  const Interval half_slope = root(square(q.B) - q.A * q.C);
+  const Interval half_slope = root(q.discriminant);
   return -divide_by_positive(dA * square(s) + Interval(2.0) * dB * s + dC,
                              Interval(2.0) * half_slope);
 }
@@ -165,16 +155,14 @@ bool limit_is_smooth(const HeightQuadratic& q) {
 
 // Whether a root with these ranges stays within its limit.
 bool is_within_limit(const Patch& patch, std::size_t i, const HeightQuadratic& q, const Interval& s,
-                     const Interval& discriminant) {
-  const double limit = limit_range(q).lo;
-  if (s.hi < limit && s.lo > -limit) return true;
-  if (!(q.B.lo > 0.0) || !(discriminant.lo > 0.0)) return false;
+                     double least_limit) {
+  if (s.hi < least_limit && s.lo > -least_limit) return true;
+  if (!(q.B.lo > 0.0) || !(q.discriminant.lo > 0.0)) return false;
   // Next to the vertex, where both fall to 0, what they are to the distance x from it:
   // |s| <= (|c| x + 2 |x.N| / x) x / (B + root), x.N no more than N's length along the face.
-  const dvec3 n = glm::normalize(glm::cross(patch.P[1] - patch.P[0], patch.P[2] - patch.P[0]));
-  const double along = glm::length(patch.N[i] - n * glm::dot(patch.N[i], n));
-  const double slope =
-      (std::max(-q.c.lo, q.c.hi) * root(q.xx).hi + 2.0 * along) / (q.B.lo + root(discriminant).lo);
+  const double along = glm::length(patch.N[i] - patch.n * glm::dot(patch.N[i], patch.n));
+  const double slope = (std::max(-q.c.lo, q.c.hi) * root(q.xx).hi + 2.0 * along) /
+                       (q.B.lo + root(q.discriminant).lo);
   const Interval D = root(q.DD);
   constexpr double rounding = 1e-12;
   return slope + rounding < std::min(q.DN.lo / (in_double::FLAT_SINE * D.hi), 1.0) / D.hi;
@@ -189,9 +177,8 @@ bool has_no_kink(const Patch& patch, std::size_t i, const HeightQuadratic& q,
   if (!s) return false;
   const Interval limit = limit_range(q);
   if (s->lo > limit.hi || s->hi < -limit.hi) return limit_is_smooth(q);
-  const Interval discriminant = square(q.B) - q.A * q.C;
-  return (discriminant.lo > 0.0 || discriminant.hi < 0.0) &&
-         is_within_limit(patch, i, q, *s, discriminant);
+  return (q.discriminant.lo > 0.0 || q.discriminant.hi < 0.0) &&
+         is_within_limit(patch, i, q, *s, limit.lo);
 }
 
 // Whether s_i is smooth over a part and q bounds its derivatives.
@@ -199,10 +186,20 @@ bool is_smooth(const Patch& patch, std::size_t i, const HeightQuadratic& q,
                const std::optional<Interval>& s) {
   if (!s || !(q.DD.lo > 0.0) || !(q.xx.lo > 0.0) || !(patch.data[i].z > 0.0)) return false;
   const double limit = limit_range(q).lo;
-  return (square(q.B) - q.A * q.C).lo > 0.0 && s->hi < limit && s->lo > -limit;
+  return q.discriminant.lo > 0.0 && s->hi < limit && s->lo > -limit;
 }
 
 }  // namespace
+
+// (D.n)^2 at least, which the coefficients may miss by much where directions turn fast.
+Interval direction_square_range(const Patch& patch, const PartCorners& corners) {
+  const Interval range = product_range(corners.D, corners.D);
+  const double above = linear_range(corners.D, patch.n).lo;
+  // Of n's length.
+  constexpr double rounding = 1e-14;
+  return above > 0.0 ? Interval(std::max(range.lo, above * above * (1.0 - rounding)), range.hi)
+                     : range;
+}
 
 std::optional<Interval> sphere_sigma_range(const Patch& patch, const Part& part,
                                            const PartCorners& corners) {
@@ -227,8 +224,8 @@ bool sphere_is_smooth(const Patch& patch, const Part& part) {
 
 std::optional<SigmaRanges> sphere_derivative_ranges(const Patch& patch, const Part& part,
                                                     const PartCorners& corners) {
-  const auto& [P, N, D, data, longest] = patch;
-  const dvec3 n = glm::normalize(glm::cross(P[1] - P[0], P[2] - P[0]));
+  const auto& P = patch.P;
+  const auto& D = patch.D;
   SigmaRanges sigma{0.0, 0.0, 0.0};
   std::array<Interval, 3> s;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -239,7 +236,7 @@ std::optional<SigmaRanges> sphere_derivative_ranges(const Patch& patch, const Pa
     const int k = static_cast<int>(i);
     const auto [lo, hi] = std::minmax({part[0][k], part[1][k], part[2][k]});
     const Interval w(lo, hi);
-    const dvec3 turn = i == 1 ? n : -n;
+    const dvec3 turn = i == 1 ? patch.n : -patch.n;
     sigma.s = sigma.s + w * s[i];
     sigma.u =
         sigma.u + w * derivative_range(patch, i, corners, q, s[i], P[1] - P[0], D[1] - D[0], turn);

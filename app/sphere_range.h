@@ -9,12 +9,16 @@
 
 namespace trisect {
 
+// Range of |D|^2 over a part.
+Interval direction_square_range(const Patch& patch, const PartCorners& corners);
+
 // Range of sigma, in units of D, over a part; nothing where D may vanish.
 std::optional<Interval> sphere_sigma_range(const Patch& patch, const Part& part,
                                            const PartCorners& corners);
 
-// Whether sigma is smooth over a part, all of which may lie beyond the triangle's border: every
-// line meets its spheres and no height is at its limit. False does not say that it is not.
+// Whether sigma has no kink over a part, some of which may lie beyond the triangle's border: lines
+// do not begin to miss a sphere there, and no height comes to its limit. False does not say that it
+// has one.
 bool sphere_is_smooth(const Patch& patch, const Part& part);
 
 // Ranges of sigma and of its derivatives along u and v. Nothing where a height may be at its limit

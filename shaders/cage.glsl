@@ -7,6 +7,11 @@ real length2(vec2 a) { return sqrt(a.x * a.x + a.y * a.y); }
 
 real largest(vec2 a) { return max(abs(a.x), abs(a.y)); }
 
+// Weights within a node of those in the triangle, and back.
+vec3 weights_in(Node node, vec3 w) { return (w - node.origin) / node.size; }
+
+vec3 weights_of(Node node, vec3 l) { return node.origin + l * node.size; }
+
 // From a node's origin to that of its child k.
 vec3 child_shift(uint k, real half_size) {
   if (k == 3u) return vec3(half_size);
@@ -57,9 +62,9 @@ real blossom(vec3 corner, vec3 edge, vec3 a, vec3 b) {
 
 // Control points of T + q D over a node.
 Net cage_net(FramedPatch framed, vec3 corner, vec3 edge, Node node) {
-  vec3 a = node.origin + vec3(node.size, 0.0, 0.0);
-  vec3 b = node.origin + vec3(0.0, node.size, 0.0);
-  vec3 c = node.origin + vec3(0.0, 0.0, node.size);
+  vec3 a = weights_of(node, vec3(1.0, 0.0, 0.0));
+  vec3 b = weights_of(node, vec3(0.0, 1.0, 0.0));
+  vec3 c = weights_of(node, vec3(0.0, 0.0, 1.0));
   vec2 P0 = vec2(framed.P0);
   vec2 P1 = vec2(framed.P1);
   vec2 P2 = vec2(framed.P2);

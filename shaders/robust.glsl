@@ -100,10 +100,6 @@ Node widened(Node node) {
   return wide;
 }
 
-vec3 weights_in(Node node, vec3 w) { return (w - node.origin) / node.size; }
-
-vec3 weights_of(Node node, vec3 l) { return node.origin + l * node.size; }
-
 real least(vec3 a) { return min(min(a.x, a.y), a.z); }
 
 // The root of the triangle of a node's corners, in weights within it, drawn to the triangle.

@@ -1,6 +1,6 @@
-// Where the sphere surface is over a node, by interval arithmetic: the bound of a part that no quadratic bounds, as sigma has
-// a kink there. It has one where lines begin to miss a vertex's sphere, and where a height reaches its limit. A range is
-// vec2(least, largest).
+// Where the sphere surface is over a node, by interval arithmetic: the bound of a part that no quadratic bounds, as
+// sigma has a kink there. It has one where lines begin to miss a vertex's sphere, and where a height reaches its limit.
+// A range is vec2(least, largest).
 
 // Relative: some roundings of what is added up.
 const real RANGE_SLACK = real(1e-6);
@@ -44,7 +44,7 @@ vec2 curvature_range(vec3 x0, vec3 x1, vec3 x2, vec3 b, vec3 n, vec4 data) {
 // Of |D|^2, n the face normal: (D.n)^2 at least, which the coefficients may miss by much where directions turn fast.
 vec2 square_range(vec3 D0, vec3 D1, vec3 D2, vec3 n) {
   vec2 DD = dot_range(D0, D1, D2, D0, D1, D2);
-  real above = max(min(min(dot3(D0, n), dot3(D1, n)), dot3(D2, n)), real(0.0));
+  real above = max(range_of(dot3(D0, n), dot3(D1, n), dot3(D2, n)).x, real(0.0));
   return grown(vec2(max(DD.x, above * above), DD.y), RANGE_SLACK * DD.y);
 }
 
@@ -90,17 +90,18 @@ vec2 sphere_height_range(vec3 x0, vec3 x1, vec3 x2, vec3 D0, vec3 D1, vec3 D2, v
 
 // Of sigma over a node of the sphere surface.
 vec2 sphere_range(Shape shape, Triangle tri, Node node) {
-  vec3 a = node.origin + vec3(node.size, 0.0, 0.0);
-  vec3 b = node.origin + vec3(0.0, node.size, 0.0);
-  vec3 c = node.origin + vec3(0.0, 0.0, node.size);
+  vec3 a = weights_of(node, vec3(1.0, 0.0, 0.0));
+  vec3 b = weights_of(node, vec3(0.0, 1.0, 0.0));
+  vec3 c = weights_of(node, vec3(0.0, 0.0, 1.0));
   vec3 Ta = base_point(tri, a);
   vec3 Tb = base_point(tri, b);
   vec3 Tc = base_point(tri, c);
   vec3 Da = shell_direction(shape.shell, tri, a);
   vec3 Db = shell_direction(shape.shell, tri, b);
   vec3 Dc = shell_direction(shape.shell, tri, c);
-  vec3 low = min(min(a, b), c);
-  vec3 high = max(max(a, b), c);
+  vec3 end = node.origin + vec3(node.size);
+  vec3 low = min(node.origin, end);
+  vec3 high = max(node.origin, end);
   vec2 DD = square_range(Da, Db, Dc, vec3(tri.TriNormal));
   vec2 sigma = vec2(0.0);
   for (int i = 0; i < 3; ++i) {
@@ -118,9 +119,9 @@ vec2 sphere_range(Shape shape, Triangle tri, Node node) {
 // displaced by the least and by the largest sigma.
 bool kinked_near_ray(Shape shape, Triangle tri, FramedPatch framed, Node node, real reach) {
   vec2 sigma = sphere_range(shape, tri, node);
-  vec3 a = node.origin + vec3(node.size, 0.0, 0.0);
-  vec3 b = node.origin + vec3(0.0, node.size, 0.0);
-  vec3 c = node.origin + vec3(0.0, 0.0, node.size);
+  vec3 a = weights_of(node, vec3(1.0, 0.0, 0.0));
+  vec3 b = weights_of(node, vec3(0.0, 1.0, 0.0));
+  vec3 c = weights_of(node, vec3(0.0, 0.0, 1.0));
   vec2 Da = vec2(weigh(a, framed.D0, framed.D1, framed.D2));
   vec2 Db = vec2(weigh(b, framed.D0, framed.D1, framed.D2));
   vec2 Dc = vec2(weigh(c, framed.D0, framed.D1, framed.D2));
