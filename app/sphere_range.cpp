@@ -27,35 +27,36 @@ Interval product_range(const std::array<dvec3, 3>& a, const std::array<dvec3, 3>
 }
 
 // Range of the curvature at vertex i. Seen from there a convex part spans the angles of its
-// corners, T; what matters of an angle is its size.
+// corners, T.
 Interval curvature_range(const Patch& patch, std::size_t i, const std::array<dvec3, 3>& T) {
   const dvec3 e = patch.P[i == 2 ? 1 : 2] - patch.P[i];
+  // The axis about which the angle from e grows, backward.
+  const dvec3 axis = i == 1 ? -patch.n : patch.n;
   double lowest = kInfinity;
-  double highest = 0.0;
-  bool left = false;
-  bool right = false;
+  double highest = -kInfinity;
   for (const dvec3& corner : T) {
     const dvec3 x = corner - patch.P[i];
     if (x == dvec3(0.0)) continue;
     const dvec3 sine = glm::cross(x, e);
-    const double angle = std::atan2(glm::length(sine), glm::dot(x, e));
+    const double size = std::atan2(glm::length(sine), glm::dot(x, e));
+    const double angle = glm::dot(sine, axis) < 0.0 ? -size : size;
     lowest = std::min(lowest, angle);
     highest = std::max(highest, angle);
-    // Written so that both hold where the triangle has no area and no normal.
-    left = left || !(glm::dot(sine, patch.n) > 0.0);
-    right = right || !(glm::dot(sine, patch.n) < 0.0);
   }
-  // Across the edge, or its other side, or around the vertex, which has a corner behind it then.
-  const bool across = left && right;
+  // Around the vertex, or across the line behind it, at which the angle ends.
   constexpr double right_angle = 1.57;
-  if (across && highest > right_angle) highest = kInfinity;
-  if (across) lowest = 0.0;
+  if (lowest <= 0.0 && highest >= 0.0 && std::max(-lowest, highest) > right_angle) {
+    lowest = -kInfinity;
+    highest = kInfinity;
+  }
   // The angle is exact to some ten units in the last place of pi.
   constexpr double rounding = 1e-14;
   const double all = patch.data[i].z;
-  const Interval beta(std::clamp((lowest - rounding) / all, 0.0, 1.0),
-                      std::clamp((highest + rounding) / all, 0.0, 1.0));
-  return patch.data[i].y + beta * (Interval(patch.data[i].x) - patch.data[i].y);
+  const auto blend = [&](double angle) {
+    return std::clamp(angle / all, in_double::LEAST_BLEND, in_double::MOST_BLEND);
+  };
+  return patch.data[i].y + Interval(blend(lowest - rounding), blend(highest + rounding)) *
+                               (Interval(patch.data[i].x) - patch.data[i].y);
 }
 
 // The quadratic A s^2 + 2 B s + C of vertex i over a part, and the ranges it is made of.

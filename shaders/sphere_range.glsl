@@ -29,16 +29,19 @@ vec2 dot_range(vec3 a0, vec3 a1, vec3 a2, vec3 b0, vec3 b1, vec3 b2) {
   return joined(range_of(dot3(a0, b0), dot3(a1, b1), dot3(a2, b2)), edges * real(0.5));
 }
 
-// Of blended_curvature at points with corners x_k seen from the vertex, b its neighbour, n the face normal: a convex node
-// spans the angles of its corners; what matters of an angle is its size.
-vec2 curvature_range(vec3 x0, vec3 x1, vec3 x2, vec3 b, vec3 n, vec4 data) {
-  vec2 angle = range_of(AngleBetween(x0, b), AngleBetween(x1, b), AngleBetween(x2, b));
-  vec2 side = range_of(dot3(cross3(x0, b), n), dot3(cross3(x1, b), n), dot3(cross3(x2, b), n));
-  // Across the edge, or its other side, or around the vertex, which has a corner behind it then.
-  bool across = side.x <= real(0.0) && side.y >= real(0.0);
-  if (across) angle = vec2(0.0, angle.y > real(1.57) ? UNBOUNDED : angle.y);
-  vec2 beta = clamp(grown(angle / data.z, RANGE_SLACK), vec2(0.0), vec2(1.0));
-  return grown(vec2(data.y) + range_product(beta, vec2(data.x - data.y)), RANGE_SLACK * (abs(data.x) + abs(data.y)));
+// The angle from b to x, both seen from a vertex, that grows backward about the axis.
+real signed_angle(vec3 x, vec3 b, vec3 axis) {
+  real size = AngleBetween(x, b);
+  return dot3(cross3(x, b), axis) < real(0.0) ? -size : size;
+}
+
+// Of the vertex's curvature at points with corners x_k seen from it: a convex node spans the angles of its corners.
+vec2 curvature_range(vec3 x0, vec3 x1, vec3 x2, vec3 b, vec3 axis, vec4 data) {
+  vec2 angle = range_of(signed_angle(x0, b, axis), signed_angle(x1, b, axis), signed_angle(x2, b, axis));
+  // Around the vertex, or across the line behind it, at which the angle ends.
+  if (angle.x <= real(0.0) && angle.y >= real(0.0) && largest(angle) > real(1.57)) angle = vec2(-UNBOUNDED, UNBOUNDED);
+  vec2 blend = clamp(grown(angle / data.z, RANGE_SLACK), vec2(LEAST_BLEND), vec2(MOST_BLEND));
+  return grown(vec2(data.y) + range_product(blend, vec2(data.x - data.y)), RANGE_SLACK * (abs(data.x) + abs(data.y)));
 }
 
 // Of |D|^2, n the face normal: (D.n)^2 at least, which the coefficients may miss by much where directions turn fast.
@@ -108,7 +111,8 @@ vec2 sphere_range(Shape shape, Triangle tri, Node node) {
     vec3 P = vec3(tri.Position[i]);
     vec3 neighbour = vec3(tri.Position[i == 2 ? 1 : 2]);
     vec4 data = tri.VertexData[i];
-    vec2 curvature = curvature_range(Ta - P, Tb - P, Tc - P, neighbour - P, vec3(tri.TriNormal), data);
+    vec3 axis = i == 1 ? -vec3(tri.TriNormal) : vec3(tri.TriNormal);
+    vec2 curvature = curvature_range(Ta - P, Tb - P, Tc - P, neighbour - P, axis, data);
     vec2 s = sphere_height_range(Ta - P, Tb - P, Tc - P, Da, Db, Dc, DD, vec3(tri.Normal[i]), curvature);
     sigma += range_product(vec2(low[i], high[i]), s);
   }

@@ -86,11 +86,21 @@ real sphere_root(vec3 x0, vec3 dir, vec3 N, real c) {
   return plane || (B > real(0.0) && discriminant > real(0.0)) ? -C / (B + root) : (root - B) / A;
 }
 
-// The curvature at vertex i toward the point T of the triangle, linear in the angle at the vertex between
-// the curvatures toward its neighbours a and b (a the lower-numbered one).
-real blended_curvature(vec3 T, vec3 vertex, vec3 b, vec4 data) {
-  real beta = clamp(AngleBetween(T - vertex, b - vertex) / data.z, real(0.0), real(1.0));
-  return data.y + beta * (data.x - data.y);
+// Where the direction from a vertex to the point T lies between its neighbours, linear in the angle: 0 toward b, 1 toward
+// a, whose weight at T is w_a. It runs on beyond the edges, lest the surface have a kink there, but not all around the
+// vertex.
+const real LEAST_BLEND = real(-1.0);
+const real MOST_BLEND = real(2.0);
+real curvature_blend(vec3 T, real w_a, vec3 vertex, vec3 b, vec4 data) {
+  real angle = AngleBetween(T - vertex, b - vertex);
+  return clamp((w_a < real(0.0) ? -angle : angle) / data.z, LEAST_BLEND, MOST_BLEND);
+}
+
+// The curvature at a vertex in that direction, from those toward its neighbours (a the lower-numbered one).
+real blended_curvature(real blend, vec4 data) { return data.y + blend * (data.x - data.y); }
+
+real curvature_toward(vec3 T, real w_a, vec3 vertex, vec3 b, vec4 data) {
+  return blended_curvature(curvature_blend(T, w_a, vertex, b, data), data);
 }
 
 // Directions flatter on a vertex's tangent plane than this sine displace less and less toward its sphere, those beneath it
@@ -105,19 +115,19 @@ real height_limit(vec3 x0, vec3 D, vec3 N) {
 }
 
 // s_i of the sphere surface: displacement toward the sphere of vertex i, in units of D.
-real sphere_height(vec3 T, vec3 D, vec3 vertex, vec3 N, vec3 b, vec4 data) {
+real sphere_height(vec3 T, real w_a, vec3 D, vec3 vertex, vec3 N, vec3 b, vec4 data) {
   vec3 x0 = T - vertex;
   real limit = height_limit(x0, D, N);
-  return clamp(sphere_root(x0, D, N, blended_curvature(T, vertex, b, data)), -limit, limit);
+  return clamp(sphere_root(x0, D, N, curvature_toward(T, w_a, vertex, b, data)), -limit, limit);
 }
 
-vec3 sphere_heights(Triangle tri, vec3 T, vec3 D) {
+vec3 sphere_heights(Triangle tri, vec3 w, vec3 T, vec3 D) {
   vec3 P0 = vec3(tri.Position[0]);
   vec3 P1 = vec3(tri.Position[1]);
   vec3 P2 = vec3(tri.Position[2]);
-  return vec3(sphere_height(T, D, P0, vec3(tri.Normal[0]), P2, tri.VertexData[0]),
-              sphere_height(T, D, P1, vec3(tri.Normal[1]), P2, tri.VertexData[1]),
-              sphere_height(T, D, P2, vec3(tri.Normal[2]), P1, tri.VertexData[2]));
+  return vec3(sphere_height(T, w.y, D, P0, vec3(tri.Normal[0]), P2, tri.VertexData[0]),
+              sphere_height(T, w.x, D, P1, vec3(tri.Normal[1]), P2, tri.VertexData[1]),
+              sphere_height(T, w.x, D, P2, vec3(tri.Normal[2]), P1, tri.VertexData[2]));
 }
 
 // sigma(w).
@@ -132,7 +142,7 @@ real displacement(Shape shape, Triangle tri, vec3 w) {
   if (shape.surface == SURFACE_PHONG) {
     return shape.alpha * dot3(D, phong_offset(tri, w, T)) / dot3(D, D);
   }
-  return dot3(w, sphere_heights(tri, T, D));
+  return dot3(w, sphere_heights(tri, w, T, D));
 }
 
 vec3 surface_point(Shape shape, Triangle tri, vec3 w) {
@@ -153,14 +163,10 @@ real phong_derivative(Triangle tri, vec3 w, vec3 dw, vec3 T, vec3 dT, vec3 D, ve
   return alpha * (dot3(dD, K) + dot3(D, dK) - real(2.0) * dot3(D, K) * dot3(D, dD) / DD) / DD;
 }
 
-// The sign with which the blended curvature's angle turns: the same within the triangle; beyond the edge to b, where it
-// is that of the mirror image, the other; none beyond the edge to a, where it is held. a, b: their weights.
-real beyond_edges(real a, real b) { return a < real(0.0) ? real(-1.0) : b < real(0.0) ? real(0.0) : real(1.0); }
-
 // Derivative of s_i when T moves by dT and D by dD. `turn` is +n or -n, the axis about which the angle from b
-// to the point grows. side: beyond_edges.
-real sphere_derivative(vec3 T, vec3 dT, vec3 D, vec3 dD, real s, vec3 vertex, vec3 N, vec3 b, vec4 data, vec3 turn,
-                       real side) {
+// to the point grows.
+real sphere_derivative(vec3 T, real w_a, vec3 dT, vec3 D, vec3 dD, real s, vec3 vertex, vec3 N, vec3 b, vec4 data,
+                       vec3 turn) {
   vec3 x0 = T - vertex;
   real xx = dot3(x0, x0);
   real DD = dot3(D, D);
@@ -173,8 +179,10 @@ real sphere_derivative(vec3 T, vec3 dT, vec3 D, vec3 dD, real s, vec3 vertex, ve
     if (DN < FLAT_SINE * sqrt(DD)) relative += dot3(dD, N) / DN - dot3(D, dD) / DD;
     return s * relative;
   }
-  real c = blended_curvature(T, vertex, b, data);
-  real dc = side * (data.x - data.y) * dot3(cross3(turn, x0), dT) / (xx * data.z);
+  real blend = curvature_blend(T, w_a, vertex, b, data);
+  bool turns = blend > LEAST_BLEND && blend < MOST_BLEND;
+  real c = blended_curvature(blend, data);
+  real dc = turns ? (data.x - data.y) * dot3(cross3(turn, x0), dT) / (xx * data.z) : real(0.0);
   real A = c * DD;
   real B = c * dot3(x0, D) + dot3(D, N);
   real dA = dc * DD + real(2.0) * c * dot3(D, dD);
@@ -226,16 +234,15 @@ Displacement displacement_and_derivatives(Shape shape, Triangle tri, vec3 w) {
   vec3 N0 = vec3(tri.Normal[0]);
   vec3 N1 = vec3(tri.Normal[1]);
   vec3 N2 = vec3(tri.Normal[2]);
-  vec3 s = sphere_heights(tri, T, D);
+  vec3 s = sphere_heights(tri, w, T, D);
   // The angle at a vertex is measured from neighbour b; seen along n, b follows a at vertices 0 and 2
   // (so the angle shrinks as the point turns about +n) and precedes it at vertex 1.
-  vec3 side = vec3(beyond_edges(w.y, w.z), beyond_edges(w.x, w.z), beyond_edges(w.x, w.y));
-  vec3 su = vec3(sphere_derivative(T, Tu, D, Du, s.x, P0, N0, P2, tri.VertexData[0], -n, side.x),
-                 sphere_derivative(T, Tu, D, Du, s.y, P1, N1, P2, tri.VertexData[1], n, side.y),
-                 sphere_derivative(T, Tu, D, Du, s.z, P2, N2, P1, tri.VertexData[2], -n, side.z));
-  vec3 sv = vec3(sphere_derivative(T, Tv, D, Dv, s.x, P0, N0, P2, tri.VertexData[0], -n, side.x),
-                 sphere_derivative(T, Tv, D, Dv, s.y, P1, N1, P2, tri.VertexData[1], n, side.y),
-                 sphere_derivative(T, Tv, D, Dv, s.z, P2, N2, P1, tri.VertexData[2], -n, side.z));
+  vec3 su = vec3(sphere_derivative(T, w.y, Tu, D, Du, s.x, P0, N0, P2, tri.VertexData[0], -n),
+                 sphere_derivative(T, w.x, Tu, D, Du, s.y, P1, N1, P2, tri.VertexData[1], n),
+                 sphere_derivative(T, w.x, Tu, D, Du, s.z, P2, N2, P1, tri.VertexData[2], -n));
+  vec3 sv = vec3(sphere_derivative(T, w.y, Tv, D, Dv, s.x, P0, N0, P2, tri.VertexData[0], -n),
+                 sphere_derivative(T, w.x, Tv, D, Dv, s.y, P1, N1, P2, tri.VertexData[1], n),
+                 sphere_derivative(T, w.x, Tv, D, Dv, s.z, P2, N2, P1, tri.VertexData[2], -n));
   sigma.s = dot3(w, s);
   sigma.u = dot3(du, s) + dot3(w, su);
   sigma.v = dot3(dv, s) + dot3(w, sv);

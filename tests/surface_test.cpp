@@ -250,8 +250,26 @@ TEST(Surface, FlatNormalsGiveTheFlatTriangle) {
   }
 }
 
+// Within the triangle, on its edges, where a kink would have a mean of two sides for difference,
+// and as far beyond them as neighbouring patches overlap.
+std::vector<dvec3> weights_about_the_triangle() {
+  std::vector<dvec3> weights = test::weight_grid(5, true);
+  for (int edge = 0; edge < 3; ++edge) {
+    for (const double along : {0.2, 0.5, 0.8}) {
+      for (const double beyond : {0.0, double{OVERLAP}}) {
+        dvec3 w(-beyond);
+        w[(edge + 1) % 3] = along;
+        w[(edge + 2) % 3] = 1.0 + beyond - along;
+        weights.push_back(w);
+      }
+    }
+  }
+  return weights;
+}
+
 TEST(Surface, GeometricNormalIsThatOfDifferences) {
   std::mt19937_64 random(8);
+  const std::vector<dvec3> weights = weights_about_the_triangle();
   constexpr double h = 1e-5;  // central differences: h^2 of truncation, 1e-16 / h of rounding
   for (int i = 0; i < 500; ++i) {
     const in_double::Triangle tri = baked(test::random_patch(random, 35.0));
@@ -259,7 +277,7 @@ TEST(Surface, GeometricNormalIsThatOfDifferences) {
                                           in_double::Shape{SURFACE_SPHERE, SHELL_HEIGHT, 0.0},
                                           in_double::Shape{SURFACE_PHONG, SHELL_NORMAL, 0.65},
                                           in_double::Shape{SURFACE_SPHERE, SHELL_NORMAL, 0.0}}) {
-      for (const dvec3& w : test::weight_grid(5, true)) {
+      for (const dvec3& w : weights) {
         const auto difference = [&](const dvec3& step) {
           return in_double::surface_point(shape, tri, w + step * h) -
                  in_double::surface_point(shape, tri, w - step * h);
@@ -317,7 +335,7 @@ TEST(SphereHeight, GoesNoFartherThanFromItsVertex) {
   const dvec3 T(0, 0.3, 0.4);
   const dvec3 N(0, 0, 1);
   const auto length = [&](const dvec3& D) {
-    return in_double::sphere_height(T, D, {0, 0, 0}, N, {0, 1, 0}, data) * glm::length(D);
+    return in_double::sphere_height(T, 0.5, D, {0, 0, 0}, N, {0, 1, 0}, data) * glm::length(D);
   };
   // To the plane at right angles; along a slant for which that is farther than to the vertex;
   // almost in the tangent plane; in it and beneath.
