@@ -13,3 +13,9 @@ struct Displacement {
   real u;
   real v;
 };
+
+// How a height s over the base point T along D changes with them: ds = along_T . dT + along_D . dD.
+struct Gradient {
+  vec3 along_T;
+  vec3 along_D;
+};

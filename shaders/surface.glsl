@@ -163,35 +163,47 @@ real phong_derivative(Triangle tri, vec3 w, vec3 dw, vec3 T, vec3 dT, vec3 D, ve
   return alpha * (dot3(dD, K) + dot3(D, dK) - real(2.0) * dot3(D, K) * dot3(D, dD) / DD) / DD;
 }
 
-// Derivative of s_i when T moves by dT and D by dD. `turn` is +n or -n, the axis about which the angle from b
-// to the point grows.
-real sphere_derivative(vec3 T, real w_a, vec3 dT, vec3 D, vec3 dD, real s, vec3 vertex, vec3 N, vec3 b, vec4 data,
-                       vec3 turn) {
+// Gradient of s_i. `turn` is +n or -n, the axis about which the angle from b to the point grows.
+Gradient sphere_gradient(vec3 T, real w_a, vec3 D, real s, vec3 vertex, vec3 N, vec3 b, vec4 data, vec3 turn) {
+  EXACT Gradient gradient;
   vec3 x0 = T - vertex;
   real xx = dot3(x0, x0);
   real DD = dot3(D, D);
-  if (xx == real(0.0)) return -dot3(dT, N) / dot3(D, N);
+  real DN = dot3(D, N);
+  if (xx == real(0.0)) {
+    gradient.along_T = -N / DN;
+    gradient.along_D = vec3(0.0);
+    return gradient;
+  }
   if (abs(s) >= height_limit(x0, D, N)) {
     // Of the limit.
-    real DN = dot3(D, N);
-    if (DN <= real(0.0)) return real(0.0);
-    real relative = dot3(x0, dT) / xx - dot3(D, dD) / DD;
-    if (DN < FLAT_SINE * sqrt(DD)) relative += dot3(dD, N) / DN - dot3(D, dD) / DD;
-    return s * relative;
+    bool flat_on = DN < FLAT_SINE * sqrt(DD);
+    gradient.along_T = x0 * (s / xx);
+    gradient.along_D = D * ((flat_on ? real(-2.0) : real(-1.0)) * s / DD);
+    if (flat_on && DN > real(0.0)) gradient.along_D += N * (s / DN);
+    return gradient;
   }
   real blend = curvature_blend(T, w_a, vertex, b, data);
   bool turns = blend > LEAST_BLEND && blend < MOST_BLEND;
   real c = blended_curvature(blend, data);
-  real dc = turns ? (data.x - data.y) * dot3(cross3(turn, x0), dT) / (xx * data.z) : real(0.0);
+  // Of c.
+  vec3 dc = turns ? cross3(turn, x0) * ((data.x - data.y) / (xx * data.z)) : vec3(0.0);
+  vec3 p = x0 + D * s;
   real A = c * DD;
-  real B = c * dot3(x0, D) + dot3(D, N);
-  real dA = dc * DD + real(2.0) * c * dot3(D, dD);
-  EXACT real dB = dot3(dD, N) + c * (dot3(dT, D) + dot3(x0, dD)) + dc * dot3(x0, D);
-  real dC = dc * xx + real(2.0) * (c * dot3(x0, dT) + dot3(dT, N));
+  real B = c * dot3(x0, D) + DN;
   real C = c * xx + real(2.0) * dot3(x0, N);
-  // The line passes closest to the sphere at -B / A, or meets it, where A s + B is the square root of the discriminant.
-  if (B * B - A * C <= real(0.0)) return -(dB + s * dA) / A;
-  return -((dA * s + real(2.0) * dB) * s + dC) / (real(2.0) * (A * s + B));
+  if (B * B - A * C <= real(0.0)) {
+    // s = -B / A, the point p that is closest to the sphere.
+    gradient.along_T = -(D * c + dc * dot3(p, D)) / A;
+    gradient.along_D = -(N + (p + D * s) * c) / A;
+    return gradient;
+  }
+  // Half the sphere's function F = c p.p + 2 p.N, 0 at p, changes with p by g and with s by g.D.
+  vec3 g = p * c + N;
+  real slope = A * s + B;
+  gradient.along_T = -(g + dc * (real(0.5) * dot3(p, p))) / slope;
+  gradient.along_D = g * (-s / slope);
+  return gradient;
 }
 
 // That of phong in the normal shell, from its (s_01, s_12, s_02).
@@ -237,12 +249,13 @@ Displacement displacement_and_derivatives(Shape shape, Triangle tri, vec3 w) {
   vec3 s = sphere_heights(tri, w, T, D);
   // The angle at a vertex is measured from neighbour b; seen along n, b follows a at vertices 0 and 2
   // (so the angle shrinks as the point turns about +n) and precedes it at vertex 1.
-  vec3 su = vec3(sphere_derivative(T, w.y, Tu, D, Du, s.x, P0, N0, P2, tri.VertexData[0], -n),
-                 sphere_derivative(T, w.x, Tu, D, Du, s.y, P1, N1, P2, tri.VertexData[1], n),
-                 sphere_derivative(T, w.x, Tu, D, Du, s.z, P2, N2, P1, tri.VertexData[2], -n));
-  vec3 sv = vec3(sphere_derivative(T, w.y, Tv, D, Dv, s.x, P0, N0, P2, tri.VertexData[0], -n),
-                 sphere_derivative(T, w.x, Tv, D, Dv, s.y, P1, N1, P2, tri.VertexData[1], n),
-                 sphere_derivative(T, w.x, Tv, D, Dv, s.z, P2, N2, P1, tri.VertexData[2], -n));
+  Gradient d0 = sphere_gradient(T, w.y, D, s.x, P0, N0, P2, tri.VertexData[0], -n);
+  Gradient d1 = sphere_gradient(T, w.x, D, s.y, P1, N1, P2, tri.VertexData[1], n);
+  Gradient d2 = sphere_gradient(T, w.x, D, s.z, P2, N2, P1, tri.VertexData[2], -n);
+  vec3 su = vec3(dot3(d0.along_T, Tu) + dot3(d0.along_D, Du), dot3(d1.along_T, Tu) + dot3(d1.along_D, Du),
+                 dot3(d2.along_T, Tu) + dot3(d2.along_D, Du));
+  vec3 sv = vec3(dot3(d0.along_T, Tv) + dot3(d0.along_D, Dv), dot3(d1.along_T, Tv) + dot3(d1.along_D, Dv),
+                 dot3(d2.along_T, Tv) + dot3(d2.along_D, Dv));
   sigma.s = dot3(w, s);
   sigma.u = dot3(du, s) + dot3(w, su);
   sigma.v = dot3(dv, s) + dot3(w, sv);
