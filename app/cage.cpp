@@ -227,11 +227,36 @@ Fit fit(const CagedPatch& patch, const SubTriangle& part) {
   return fit;
 }
 
+// Points around a part with a kink: its pieces' corners displaced by the least and the largest
+// sigma. Closer than the part's quadratic where directions are long.
+void add_displaced(const CagedPatch& patch, const Part& part, int divisions,
+                   std::vector<Ball>& points) {
+  if (divisions > 0) {
+    for (const Part& piece : quarter(part)) add_displaced(patch, piece, divisions - 1, points);
+    return;
+  }
+  const PartCorners corners = corners_of(patch.ranges, part);
+  const auto sigma = sphere_sigma_range(patch.ranges, part, corners);
+  if (!sigma) {
+    points.push_back({dvec3(patch.tri.Domain), patch.tri.Domain.w});
+    return;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    points.push_back({corners.T[i] + corners.D[i] * sigma->lo, 0.0});
+    points.push_back({corners.T[i] + corners.D[i] * sigma->hi, 0.0});
+  }
+}
+
 // The ball around a part, its overlap with the next ones included.
 Ball part_ball(const CagedPatch& patch, const SubTriangle& part, const Fit& fit) {
+  const SubTriangle large = enlarged(part, OVERLAP);
   std::vector<Ball> points;
-  for (const dvec3& point : net_of(patch.corners, enlarged(part, OVERLAP), fit.q)) {
-    points.push_back({point, fit.stray});
+  if (fit.bend == KINKED) {
+    add_displaced(patch, corners_of(large), kProofDivisions, points);
+  } else {
+    for (const dvec3& point : net_of(patch.corners, large, fit.q)) {
+      points.push_back({point, fit.stray});
+    }
   }
   Ball ball = enclosing_ball(points);
   ball.radius += 1e-6 * (ball.radius + glm::length(ball.center));  // rounding to single precision
@@ -299,13 +324,11 @@ vec4 normal_cone(const CagedPatch& patch, const SubTriangle& part, const Fit& fi
 
 Cage cage_of(const CagedPatch& patch, const SubTriangle& part, const Fit& fit, uint32_t triangle) {
   Cage cage{};
-  // Where the quadratic is no bound at all the whole patch's ball is one.
-  if (part.size == 1.0 || !(fit.stray < patch.tri.Domain.w)) {
-    cage.ball = vec4(patch.tri.Domain);
-  } else {
-    const Ball ball = part_ball(patch, part, fit);
-    cage.ball = vec4(glm::vec3(ball.center), rounded_up(ball.radius));
-  }
+  // Where the part's bounds are none the patch's ball is one.
+  const Ball ball = part_ball(patch, part, fit);
+  cage.ball = part.size < 1.0 && ball.radius < patch.tri.Domain.w
+                  ? vec4(glm::vec3(ball.center), rounded_up(ball.radius))
+                  : vec4(patch.tri.Domain);
   cage.node = vec4(glm::vec3(part.origin), static_cast<float>(part.size));
   cage.corner = vec4(glm::vec3(fit.q.corner), rounded_up(fit.stray));
   cage.edge = vec4(glm::vec3(fit.q.edge), rounded_up(fit.tangent_stray));

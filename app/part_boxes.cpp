@@ -22,11 +22,11 @@ PartBox part_box(const Triangle& single, const Cage& cage, uint shell, double sl
     lo = glm::min(lo, point);
     hi = glm::max(hi, point);
   }
-  // Where the quadratic is no bound the patch's ball is one.
-  const dvec3 middle(tri.Domain);
+  // Where the quadratic is a poor bound, or none, the part's ball is one.
+  const dvec3 middle(cage.ball);
   const dvec3 stray(cage.corner.w);
-  lo = glm::max(lo - stray, middle - dvec3(tri.Domain.w)) - dvec3(slack);
-  hi = glm::min(hi + stray, middle + dvec3(tri.Domain.w)) + dvec3(slack);
+  lo = glm::max(lo - stray, middle - dvec3(cage.ball.w)) - dvec3(slack);
+  hi = glm::min(hi + stray, middle + dvec3(cage.ball.w)) + dvec3(slack);
   return {{rounded_down(lo.x), rounded_down(lo.y), rounded_down(lo.z)},
           {rounded_up(hi.x), rounded_up(hi.y), rounded_up(hi.z)}};
 }

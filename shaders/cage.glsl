@@ -60,6 +60,18 @@ real blossom(vec3 corner, vec3 edge, vec3 a, vec3 b) {
   return q;
 }
 
+vec3 centre_of(Node node) { return node.origin + vec3(node.size / real(3.0)); }
+
+// Adds the linear function that is `e` at weights c and has this gradient.
+void raise(INOUT(Fit) fit, vec3 c, real e, vec2 gradient) {
+  // At the patch's vertices.
+  real at0 = e - gradient.x * c.y - gradient.y * c.z;
+  real at1 = at0 + gradient.x;
+  real at2 = at0 + gradient.y;
+  fit.corner += vec3(at0, at1, at2);
+  fit.edge += vec3(at0 + at1, at1 + at2, at0 + at2) * real(0.5);
+}
+
 // Control points of T + q D over a node.
 Net cage_net(FramedPatch framed, vec3 corner, vec3 edge, Node node) {
   vec3 a = weights_of(node, vec3(1.0, 0.0, 0.0));

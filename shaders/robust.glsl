@@ -281,18 +281,13 @@ Fit cage_fit(Shape shape, Triangle tri, Cage cage, Node node, bool whole, INOUT(
   fit.stray = cage.corner.w;
   fit.tangent_stray = cage.edge.w;
   if (cage.bend == real(0.0) || whole) return fit;
-  vec3 c = node.origin + vec3(node.size / real(3.0));
+  vec3 c = centre_of(node);
   Displacement sigma = displacement_and_derivatives(shape, tri, c);
   ++evaluations;
   real e = sigma.s - blossom(fit.corner, fit.edge, c, c);
   real eu = sigma.u - real(2.0) * blossom(fit.corner, fit.edge, c, vec3(-1.0, 1.0, 0.0));
   real ev = sigma.v - real(2.0) * blossom(fit.corner, fit.edge, c, vec3(-1.0, 0.0, 1.0));
-  // At the patch's vertices.
-  real at0 = e - eu * c.y - ev * c.z;
-  real at1 = at0 + eu;
-  real at2 = at0 + ev;
-  fit.corner += vec3(at0, at1, at2);
-  fit.edge += vec3(at0 + at1, at1 + at2, at0 + at2) * real(0.5);
+  raise(fit, c, e, vec2(eu, ev));
   // No point of a widened node is farther from its centre than this, in the weights 1 and 2: sqrt(5) / 3 of its
   // size.
   real away = real(0.7454) * (real(1.0) + real(3.0) * OVERLAP) * abs(node.size);
@@ -323,27 +318,19 @@ void meet_part(Shape shape, bool kinks, Triangle tri, Cage cage, uint part, RayF
   do {
     uint evaluations = walk.counts.evaluations;
     bool last = walk.path >= SMALLEST;
-    bool kinked = kinks && cage.bend == KINKED;
     Node wide = widened(node);
-    Net net;
-    Mean mean;
-    bool near;
-    if (kinked) {
-      near = kinked_near_ray(shape, tri, framed, wide, reach);
-      // Nothing is known of its tangents.
-      mean.u = vec2(0.0);
-      mean.v = vec2(0.0);
-      mean.area = real(0.0);
-      mean.spread = real(1.0);
+    Fit fit;
+    bool near = true;
+    if (kinks && cage.bend == KINKED) {
+      near = ranged_fit(shape, tri, framed, wide, reach, fit, walk.counts.evaluations);
     } else {
-      Fit fit = cage_fit(shape, tri, cage, node, walk.path == WHOLE, walk.counts.evaluations);
-      net = cage_net(framed, fit.corner, fit.edge, wide);
-      near = near_ray(net, frame.stretch * fit.stray + reach);
-      real stray = frame.stretch * fit.tangent_stray * abs(wide.size) / real(3.0);
-      if (near) mean = mean_tangents(tangents(net), stray);
+      fit = cage_fit(shape, tri, cage, node, walk.path == WHOLE, walk.counts.evaluations);
     }
+    Net net = cage_net(framed, fit.corner, fit.edge, wide);
     bool divide = false;
-    if (near) {
+    if (near && near_ray(net, frame.stretch * fit.stray + reach)) {
+      real stray = frame.stretch * fit.tangent_stray * abs(wide.size) / real(3.0);
+      Mean mean = mean_tangents(tangents(net), stray);
       bool certified = mean.spread < real(1.0);
       divide = !certified && !last;
       int starts = divide ? 0 : certified ? 1 : 3;

@@ -36,6 +36,19 @@ struct Fit {
   real tangent_stray;
 };
 
+// A linear function of the weights by its values at a node's corners.
+struct Corners {
+  vec3 a;
+  vec3 b;
+  vec3 c;
+};
+
+// Ranges, vec2(least, largest), of sigma's derivatives over a node.
+struct GradientRange {
+  vec2 u;
+  vec2 v;
+};
+
 // Control points of a cubic Bezier triangle, seen along the ray; b_ijk belongs to w_0^i w_1^j w_2^k.
 struct Net {
   vec2 b300;

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "app/cage_net.h"
+#include "app/interval.h"
 #include "app/kernel_float.h"
 #include "app/surface_double.h"
 #include "app/trace_settings.h"
@@ -109,14 +110,17 @@ TEST(Cage, HoldsThePart) {
   EXPECT_GT(kinked, 1000U);
 }
 
-// The kernel's bound of a part with a kink, over nodes of all sizes.
-TEST(SphereRange, HoldsSigma) {
+// The kernel's bounds of a part with a kink, over nodes of all sizes.
+TEST(SphereRange, HoldsSigmaAndItsChanges) {
   std::mt19937_64 random(6);
   const TraceParams no_frame{};
   double widths = 0.0;
   double seen = 0.0;
+  std::size_t nodes = 0;
+  std::size_t of_known_gradient = 0;
   const BakedScene scene = caged({"teapot", {SURFACE_SPHERE, 0.0, SHELL_HEIGHT}});
   in_float::Kernel kernel = in_float::kernel_of(scene, no_frame, {});
+  const in_float::Shape single_shape = kernel.scene_shape();
   const in_double::Shape shape = shape_of(scene.choice);
   for (const Cage& cage : scene.cages) {
     if (cage.bend != KINKED || cage.skip > 0) continue;
@@ -125,14 +129,30 @@ TEST(SphereRange, HoldsSigma) {
     uint path = kernel.WHOLE;
     for (int level = 0; level < 9; ++level, path = path << 2U | (random() & 3U)) {
       const in_float::Node node = kernel.widened(kernel.node_at(cage.node, path));
-      const glm::vec2 range = kernel.sphere_range(kernel.scene_shape(), single, node);
+      const auto over = kernel.sphere_node(single_shape, single, node);
+      const glm::vec2 range = kernel.sphere_range(single, over);
+      const in_float::GradientRange gradient =
+          kernel.sphere_gradient_range(single_shape, single, over);
+      ++nodes;
+      if (gradient.u.y < kernel.UNBOUNDED) ++of_known_gradient;
       double lo = 1e30;
       double hi = -1e30;
+      dvec3 before = dvec3(node.origin) + dvec3(double{node.size} / 3.0);
+      double sigma_before = in_double::displacement(shape, tri, before);
       for (int i = 0; i < 10; ++i) {
         const dvec3 w = dvec3(node.origin) + random_weights(random) * double{node.size};
         const double sigma = in_double::displacement(shape, tri, w);
         lo = std::min(lo, sigma);
         hi = std::max(hi, sigma);
+        const Interval change = Interval(gradient.u.x, gradient.u.y) * (w.y - before.y) +
+                                Interval(gradient.v.x, gradient.v.y) * (w.z - before.z);
+        constexpr double rounding = 1e-14;
+        ASSERT_LE(change.lo, sigma - sigma_before + rounding)
+            << "triangle " << cage.triangle << " level " << level;
+        ASSERT_GE(change.hi, sigma - sigma_before - rounding)
+            << "triangle " << cage.triangle << " level " << level;
+        before = w;
+        sigma_before = sigma;
       }
       ASSERT_LE(range.x, lo) << "triangle " << cage.triangle << " level " << level;
       ASSERT_GE(range.y, hi) << "triangle " << cage.triangle << " level " << level;
@@ -143,6 +163,8 @@ TEST(SphereRange, HoldsSigma) {
   EXPECT_GT(seen, 100.0);
   // Interval arithmetic is wider than it must be, and ten points do not see all; not more.
   EXPECT_LT(widths, 10.0 * seen);
+  // Only along the curve on which lines begin to miss a sphere is there no bound.
+  EXPECT_GT(of_known_gradient, nodes * 9 / 10);
 }
 
 // The image positions of points of the surface lie in the box and within the lines that the kernel
