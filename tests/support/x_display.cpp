@@ -70,8 +70,14 @@ std::string XDisplay::run(const std::string& words) const {
 }
 
 std::string XDisplay::window_called(const std::string& name) const {
-  const std::string windows = xdotool("search --sync --name '" + name + "'");
-  return windows.substr(0, windows.find('\n'));
+  for (int i = 0; i < 1200; ++i) {
+    const std::string windows = run("xdotool search --name '" + name + "' || true");
+    if (!windows.empty()) return windows.substr(0, windows.find('\n'));
+    // openbox may sleep on a request that its Xlib has read already, until another event comes.
+    xdotool("set_desktop 0 || true");
+    usleep(50000);
+  }
+  throw std::runtime_error("no window is called " + name);
 }
 
 std::string XDisplay::pixel(const std::string& window, int x, int y, int around) const {
@@ -79,7 +85,8 @@ std::string XDisplay::pixel(const std::string& window, int x, int y, int around)
   const std::string part = std::to_string(side) + "x" + std::to_string(side) + "+" +
                            std::to_string(x - around) + "+" + std::to_string(y - around);
   // Its text format has a line for each pixel, "0,0: (0,0,255)  #0000FF  blue".
-  return run("import -silent -window " + window + " -crop " + part + " -depth 8 txt:-");
+  // Where there is no such window import waits for a click on another.
+  return run("timeout 60 import -silent -window " + window + " -crop " + part + " -depth 8 txt:-");
 }
 
 }  // namespace trisect::test
