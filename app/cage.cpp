@@ -376,7 +376,7 @@ bool has_groups(const BakedScene& scene) {
 
 bool has_kinks(const BakedScene& scene) {
   return std::any_of(scene.cages.begin(), scene.cages.end(),
-                     [](const Cage& cage) { return cage.bend == KINKED; });
+                     [](const Cage& cage) { return cage.skip == 0 && cage.bend == KINKED; });
 }
 
 std::vector<Cage> bake_cages(const BakedScene& scene) {

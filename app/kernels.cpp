@@ -13,8 +13,6 @@ namespace {
 #include "floor.spv.h"
 #include "screen_frag.spv.h"
 #include "screen_vert.spv.h"
-#include "search_packets.spv.h"
-#include "search_packets_at.spv.h"
 #include "trace_bvh.spv.h"
 #include "trace_bvh_at.spv.h"
 #include "trace_list.spv.h"
@@ -44,8 +42,6 @@ const std::span<const uint32_t> kTraceTilesSpirv(trace_tiles_spirv);
 const std::span<const uint32_t> kTraceUndecidedSpirv(trace_undecided_spirv);
 const std::span<const uint32_t> kTracePacketsSpirv(trace_packets_spirv);
 const std::span<const uint32_t> kTracePacketsAtSpirv(trace_packets_at_spirv);
-const std::span<const uint32_t> kSearchPacketsSpirv(search_packets_spirv);
-const std::span<const uint32_t> kSearchPacketsAtSpirv(search_packets_at_spirv);
 const std::span<const uint32_t> kTraceBvhSpirv(trace_bvh_spirv);
 const std::span<const uint32_t> kTraceBvhAtSpirv(trace_bvh_at_spirv);
 const std::span<const uint32_t> kTraceQuerySpirv(trace_query_spirv);

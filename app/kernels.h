@@ -17,11 +17,9 @@ extern const std::span<const uint32_t> kFillSkySpirv;
 extern const std::span<const uint32_t> kTraceTilesSpirv;
 extern const std::span<const uint32_t> kTraceUndecidedSpirv;
 extern const std::span<const uint32_t> kTracePacketsSpirv;
-extern const std::span<const uint32_t> kSearchPacketsSpirv;
 extern const std::span<const uint32_t> kTraceBvhSpirv;
 // Those of --accel bvh, for scenes whose buffers are too large to be bound.
 extern const std::span<const uint32_t> kTracePacketsAtSpirv;
-extern const std::span<const uint32_t> kSearchPacketsAtSpirv;
 extern const std::span<const uint32_t> kTraceBvhAtSpirv;
 extern const std::span<const uint32_t> kTraceQuerySpirv;
 extern const std::span<const uint32_t> kFloorSpirv;

@@ -61,13 +61,8 @@ std::vector<NamedKernel> kernel_names(const gpu::Device& device, Accel accel, bo
                                            : NamedKernel{kTraceBvhSpirv, "trace_bvh"};
       // A subgroup tests the eight children of a node at once.
       if (device.subgroup_size() < 8) return {alone};
-      if (by_address) {
-        return {{kTracePacketsAtSpirv, "trace_packets_at"},
-                {kSearchPacketsAtSpirv, "search_packets_at"},
-                alone};
-      }
-      return {
-          {kTracePacketsSpirv, "trace_packets"}, {kSearchPacketsSpirv, "search_packets"}, alone};
+      if (by_address) return {{kTracePacketsAtSpirv, "trace_packets_at"}, alone};
+      return {{kTracePacketsSpirv, "trace_packets"}, alone};
     }
     case Accel::rayquery:
       return {{kTraceQuerySpirv, "trace_query"}, {kTraceBvhAtSpirv, "trace_bvh_at"}};

@@ -100,9 +100,9 @@ Descent descent_begun(Packet packet) {
 }
 
 // The next part that a ray of the packet comes near, NO_TRIANGLE if none is left, or no step. z: what the ray has met, in
-// its frame; those that are asleep need no more. here: whether it is this ray that comes near.
-uint next_part(Packet packet, PixelRay ray, bool awake, float z, inout Descent descent, out bool here) {
-  float end = subgroupMax(awake ? ray.frame.stretch * z : -1e30);
+// its frame. here: whether it is this ray that comes near.
+uint next_part(Packet packet, PixelRay ray, float z, inout Descent descent, out bool here) {
+  float end = subgroupMax(ray.frame.stretch * z);
   uint part = NO_TRIANGLE;
   here = false;
   bool ended = false;
@@ -122,7 +122,7 @@ uint next_part(Packet packet, PixelRay ray, bool awake, float z, inout Descent d
       uint link = bvh[descent.node + (k ^ packet.octant)].link;
       if (link >= BVH_PART) {
         if (COUNTS) descent.bytes += LINK_BYTES + BALL_BYTES;
-        here = awake && !is_beside(ray, cage_words[(link - BVH_PART) * CAGE_WORDS], z);
+        here = !is_beside(ray, cage_words[(link - BVH_PART) * CAGE_WORDS], z);
         // Here and not by the caller: llvmpipe goes through a branch that no ray takes.
         if (subgroupAny(here)) {
           part = link - BVH_PART;

@@ -197,10 +197,10 @@ vec2 height_change(HeightRange h, vec3 dT, vec3 dD) {
     return joined(change, range_quotient(grown(fall, slack), size));
   }
   if (!(h.root.x > real(0.0))) return unbounded;
-  // |p|^2 / |x|^2, p = x + s D: at most 4 where D has one length, as s is held.
+  // |p|^2 / |x|^2, p = x + s D: at most 4, as |s D| is held to |x|.
   vec2 ss = range_square(s);
   vec2 pp = max(h.xx + range_product(s, h.xD) * real(2.0) + range_product(ss, h.DD), vec2(0.0));
-  vec2 farther = vec2(0.0, real(4.0) * h.DD.y / h.DD.x);
+  vec2 farther = vec2(0.0, 4.0);
   if (h.xx.x > real(0.0)) farther = range_both(farther, range_quotient(pp, h.xx));
   vec2 p_change = linear_range(h.x, dT) + range_product(s, xd + linear_range(h.D, dT)) + range_product(ss, Dd);
   vec2 rise = range_product(turning, farther) * real(0.5) + range_product(h.c, p_change) + vec2(dot3(h.N, dT)) +

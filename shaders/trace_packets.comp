@@ -1,7 +1,7 @@
 #version 450
 // The renderer over the tree of the parts' boxes for packets of rays: a subgroup goes down it together, as long as one
-// of its rays may meet what is there. What Newton's method does not decide at once is left to search_packets.comp: no
-// ray waits here for a difficult neighbour.
+// of its rays may meet what is there. What Newton's method does not decide at once is left to trace_bvh.comp: no ray
+// waits here for a difficult neighbour.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
@@ -47,7 +47,7 @@ void main() {
   bool here;
   uint part;
   do {
-    part = next_part(packet, ray, true, walk.hit.z, descent, here);
+    part = next_part(packet, ray, walk.hit.z, descent, here);
     if (part != NO_TRIANGLE) meet(part, ray, here, walk, undecided);
     end_in_shadow(walk);
   } while (part != NO_TRIANGLE);

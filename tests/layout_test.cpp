@@ -238,10 +238,9 @@ TEST(Layout, ScreenPushIsTheFragmentShaders) {
 
 TEST(Layout, InterfaceIsTheKernels) {
   std::map<uint32_t, VkDescriptorType> in_kernels;
-  for (const auto& spirv :
-       {kTraceListSpirv, kViewPartsSpirv, kBinPartsSpirv, kFillSkySpirv, kTraceTilesSpirv,
-        kTraceUndecidedSpirv, kTracePacketsSpirv, kSearchPacketsSpirv, kTraceBvhSpirv,
-        kTracePacketsAtSpirv, kSearchPacketsAtSpirv, kTraceBvhAtSpirv}) {
+  for (const auto& spirv : {kTraceListSpirv, kViewPartsSpirv, kBinPartsSpirv, kFillSkySpirv,
+                            kTraceTilesSpirv, kTraceUndecidedSpirv, kTracePacketsSpirv,
+                            kTraceBvhSpirv, kTracePacketsAtSpirv, kTraceBvhAtSpirv}) {
     const Compiler kernel = reflect(spirv);
     const auto held = kernel.get_shader_resources();
     for (const auto& buffer : held.uniform_buffers) {

@@ -33,7 +33,7 @@ struct KernelSource {
 
 // As in shaders/CMakeLists.txt.
 constexpr const char* kAddresses = "#define TRISECT_ADDRESSES\n";
-constexpr std::array<KernelSource, 13> kSources{{
+constexpr auto kSources = std::to_array<KernelSource>({
     {"trace_list", "trace_list.comp", ""},
     {"view_parts", "view_parts.comp", ""},
     {"bin_parts", "bin_parts.comp", ""},
@@ -41,13 +41,11 @@ constexpr std::array<KernelSource, 13> kSources{{
     {"trace_tiles", "trace_tiles.comp", ""},
     {"trace_undecided", "trace_undecided.comp", ""},
     {"trace_packets", "trace_packets.comp", ""},
-    {"search_packets", "search_packets.comp", ""},
     {"trace_bvh", "trace_bvh.comp", ""},
     {"trace_packets_at", "trace_packets.comp", kAddresses},
-    {"search_packets_at", "search_packets.comp", kAddresses},
     {"trace_bvh_at", "trace_bvh.comp", kAddresses},
     {"trace_query", "trace_query.comp", "", true},
-}};
+});
 
 constexpr int kDefaultVersion = 100;  // of a source that names none
 constexpr int kVulkanDialect = 100;   // of GLSL, as GL_KHR_vulkan_glsl counts
