@@ -1,0 +1,201 @@
+// The reports of `trisect bench`, compare and crosscheck as a user gets them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/support/file_content.h"
+#include "tests/support/program.h"
+
+namespace trisect {
+namespace {
+
+using test::run_trisect;
+
+class Reports : public test::Program {};
+
+TEST_F(Reports, TimesTheContenders) {
+  expect_complaint(test::run_trisect({"bench"}), 2, "subcommand");
+  expect_complaint(test::run_trisect({"bench", "speed", "none.obj"}), 3, "none.obj");
+  const test::ProgramRun run = test::run_trisect(
+      {"bench", "speed", test::asset_path("sphere-20"), "--size", "80x60", "--runs", "1",
+       "--surface", "phong", "--error", "1e-4", "--json", folder_ / "b.json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::ifstream file(folder_ / "b.json");
+  const auto rows = nlohmann::json::parse(file)["rows"];
+  // One more where the device has ray queries.
+  EXPECT_EQ(std::count_if(rows.begin(), rows.end(),
+                          [](const auto& row) { return row["contender"] != "rayquery, robust"; }),
+            7);
+  for (const auto& row : rows) {
+    EXPECT_GT(row["ms"]["median"].get<double>(), 0.0);
+    if (row["contender"] == "image only") continue;
+    EXPECT_GE(row["checked_pixels"].get<int>(), 10);
+    const std::string name = row["contender"];
+    if (name.find("robust") != std::string::npos) {
+      EXPECT_EQ(row["wrong_pixels"].get<int>(), 0);
+    }
+    if (name.find("Embree") != std::string::npos) {
+      EXPECT_LE(row["flat_error"].get<double>(), 1e-4);
+    }
+  }
+}
+
+TEST_F(Reports, ReportsSpeedAgainstError) {
+  expect_complaint(test::run_trisect({"bench", "pareto", "none.obj", "-o", folder_ / "r"}), 3,
+                   "none.obj");
+  expect_complaint(test::run_trisect({"bench", "pareto", test::asset_path("sphere-20")}), 2, "-o");
+  // Not such a table.
+  expect_complaint(
+      test::run_trisect({"bench", "pareto", test::asset_path("sphere-20"), "--hardcases",
+                         test::asset_path("sphere-20"), "-o", folder_ / "r"}),
+      3, "sphere-20.obj: is not what trisect hardcases");
+  // No program is found there.
+  expect_complaint(
+      test::run_trisect({"bench", "pareto", test::asset_path("sphere-20"), "-o", folder_ / "r"},
+                        {"PATH=/nowhere"}),
+      3, "gnuplot");
+  const std::string table = folder_ / "table.json";
+  std::ofstream(table) << R"({"device": "a device", "driver": "a driver", "rows": [{
+    "case": "needle", "surface": "phong", "shell": "normal", "solver": "robust", "rays": 120,
+    "undecidable": 1, "wrong": 0, "missed": 0, "depth_error_ulp_p50": 0.1,
+    "depth_error_ulp_p99": 0.5, "depth_error_ulp_max": 0.7, "nans": 0, "evaluations_per_ray": 3.25,
+    "verdict": "pass", "note": ""}]})";
+  const test::ProgramRun run =
+      test::run_trisect({"bench", "pareto", test::asset_path("sphere-80"), "--quick", "--surface",
+                         "phong", "--size", "80x60", "--hardcases", table, "-o", folder_ / "r"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(test::content_of(folder_ / "r" / "report.md").find("| needle |"), std::string::npos);
+  // Who measured, and what: as comments ahead of the table, too.
+  const std::string csv = test::content_of(folder_ / "r" / "report.csv");
+  EXPECT_EQ(csv.substr(0, 10), "# Vulkan: ");
+  EXPECT_NE(csv.find(", commit "), std::string::npos);
+  for (const char* name : {"report.md", "report.html", "report.csv", "sphere-80-phong.svg",
+                           "sphere-80-phong.png", "sphere-80-phong-thesis.png"}) {
+    EXPECT_GT(std::filesystem::file_size(folder_ / "r" / name), 500U) << name;
+  }
+  std::ifstream file(folder_ / "r" / "report.json");
+  const auto scene = nlohmann::json::parse(file)["scenes"][0];
+  double thesis = 0.0;
+  bool robust_on_front = false;
+  for (const auto& one : scene["measurements"]) {
+    const std::string family = one["family"];
+    if (family == "thesis, height shell" && one["number"] == "Rank 10") thesis = one["rms"];
+    if (family.rfind("robust", 0) != 0) continue;
+    EXPECT_LT(one["rms"].get<double>(), 1e-6);
+    EXPECT_EQ(one["wrong_hits"].get<int>() + one["missed"].get<int>(), 0);
+    EXPECT_GT(one["bytes_read"].get<uint64_t>(), 0U);
+    robust_on_front = robust_on_front || one["on_front"].get<bool>();
+  }
+  // Nothing else is as exact, so the fastest of its ways, whichever that was, is dominated by none.
+  EXPECT_TRUE(robust_on_front);
+  // It drops pixels.
+  EXPECT_GT(thesis, 0.1);
+}
+
+TEST_F(Reports, ReportsWhatEachStepIsWorth) {
+  expect_complaint(test::run_trisect({"bench", "ablation", "none.obj", "-o", folder_ / "a"}), 3,
+                   "none.obj");
+  expect_complaint(test::run_trisect({"bench", "ablation", test::asset_path("sphere-20")}), 2,
+                   "-o");
+  const test::ProgramRun run =
+      test::run_trisect({"bench", "ablation", test::asset_path("sphere-20"), "--surface", "phong",
+                         "--size", "80x60", "--runs", "1", "-o", folder_ / "a"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const char* name :
+       {"ablation.md", "ablation.html", "sphere-20-phong.svg", "sphere-20-phong.png"}) {
+    EXPECT_GT(std::filesystem::file_size(folder_ / "a" / name), 500U) << name;
+  }
+  std::ifstream file(folder_ / "a" / "ablation.json");
+  const auto steps = nlohmann::json::parse(file)["ablations"][0]["steps"];
+  ASSERT_EQ(steps.size(), 8U);
+  const auto wrong = [](const nlohmann::json& step) {
+    return step["wrong_hits"].get<int>() + step["missed"].get<int>();
+  };
+  // The bisection loses pixels, and fewer at the higher Rank; from the robust solver on nothing is
+  // lost.
+  EXPECT_GT(wrong(steps[0]), 10 * wrong(steps[1]));
+  for (std::size_t i = 3; i < steps.size(); ++i) EXPECT_EQ(wrong(steps[i]), 0) << i;
+  // Tighter bounds leave fewer candidates; without tiles a ray meets the balls alone.
+  EXPECT_LT(steps[5]["candidates"].get<int>(), steps[4]["candidates"].get<int>());
+}
+
+TEST_F(Reports, ReportsStability) {
+  expect_complaint(test::run_trisect({"bench", "stability"}), 2, "-o");
+  const test::ProgramRun run =
+      test::run_trisect({"bench", "stability", "--rays", "2", "-o", folder_ / "s"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const char* name :
+       {"stability.md", "stability.html", "stability.csv", "stability.svg", "stability.png"}) {
+    EXPECT_GT(std::filesystem::file_size(folder_ / "s" / name), 500U) << name;
+  }
+  std::ifstream file(folder_ / "s" / "stability.json");
+  EXPECT_EQ(nlohmann::json::parse(file)["curves"].size(), 15U);
+}
+
+TEST_F(Reports, ComparesImages) {
+  ASSERT_EQ(render({}, "a.exr").exit_code, 0);
+  ASSERT_EQ(render({"--surface", "flat"}, "b.exr").exit_code, 0);
+  ASSERT_EQ(render({"--surface", "flat"}, "b.png").exit_code, 0);
+  ASSERT_EQ(render({"--size", "8x8"}, "small.png").exit_code, 0);
+  const auto compare = [&](const std::string& a, const std::string& b,
+                           const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"compare", folder_ / a, folder_ / b};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_trisect(arguments);
+  };
+  EXPECT_EQ(compare("a.exr", "a.exr").exit_code, 0);
+  // Depths and colours differ, and so do outlines.
+  const test::ProgramRun differs =
+      compare("a.exr", "b.exr", {"--json", folder_ / "c.json", "--diff", folder_ / "d.png"});
+  EXPECT_EQ(differs.exit_code, 1);
+  EXPECT_NE(differs.out.find("too far apart: hit mismatches"), std::string::npos) << differs.out;
+  std::ifstream file(folder_ / "c.json");
+  const auto json = nlohmann::json::parse(file);
+  EXPECT_GT(json["hit_mismatches"], 0);
+  EXPECT_GT(json["z_ulp"]["max"], 1000.0);
+  EXPECT_FALSE(json["excesses"].empty());
+  EXPECT_GT(std::filesystem::file_size(folder_ / "d.png"), 100U);
+  // What is asked for decides. A PNG is rounded to 8 bits.
+  EXPECT_EQ(compare("a.exr", "b.exr",
+                    {"--threshold", "hit_mismatches=1", "--threshold", "patch_mismatches=1",
+                     "--threshold", "color_max=255"})
+                .exit_code,
+            0);
+  EXPECT_EQ(compare("b.exr", "b.exr", {"--threshold", "color_max=0"}).exit_code, 0);
+  EXPECT_EQ(compare("a.exr", "a.exr", {"--threshold", "color=0"}).exit_code, 2);
+  EXPECT_EQ(compare("a.exr", "a.exr", {"--threshold", "color_max=-1"}).exit_code, 2);
+  EXPECT_EQ(compare("b.png", "small.png").exit_code, 3);
+  EXPECT_EQ(compare("b.png", "absent.png").exit_code, 3);
+  std::ofstream(folder_ / "broken.exr") << "not an image";
+  EXPECT_EQ(compare("broken.exr", "b.exr").exit_code, 3);
+}
+
+TEST_F(Reports, CrosschecksBackEnds) {
+  const auto crosscheck = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"crosscheck", test::asset_path("sphere-20"), "--size",
+                                       "48x36"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_trisect(arguments);
+  };
+  const test::ProgramRun run = crosscheck({"--backends", "vulkan,opengl,cpu,oracle", "--json",
+                                           folder_ / "c.json", "--diff", folder_ / "d.exr"});
+  EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+  std::ifstream file(folder_ / "c.json");
+  const auto json = nlohmann::json::parse(file);
+  EXPECT_EQ(json["backends"].size(), 4U);
+  EXPECT_EQ(json["pairs"].size(), 6U);
+  EXPECT_EQ(json["pairs"][0]["z_bit_equal"], json["pairs"][0]["z_pixels"]);
+  // The bisection loses pixels that the oracle has.
+  EXPECT_EQ(crosscheck({"--preset", "thesis", "--backends", "vulkan,oracle"}).exit_code, 1);
+  EXPECT_EQ(crosscheck({"--backends", "vulkan"}).exit_code, 2);
+  EXPECT_EQ(crosscheck({"--backends", "vulkan,vulkan"}).exit_code, 2);
+  EXPECT_EQ(crosscheck({"--backends", "vulkan,metal"}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace trisect
