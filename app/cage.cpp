@@ -324,11 +324,14 @@ vec4 normal_cone(const CagedPatch& patch, const SubTriangle& part, const Fit& fi
 
 Cage cage_of(const CagedPatch& patch, const SubTriangle& part, const Fit& fit, uint32_t triangle) {
   Cage cage{};
-  // Where the part's bounds are none the patch's ball is one.
-  const Ball ball = part_ball(patch, part, fit);
-  cage.ball = part.size < 1.0 && ball.radius < patch.tri.Domain.w
-                  ? vec4(glm::vec3(ball.center), rounded_up(ball.radius))
-                  : vec4(patch.tri.Domain);
+  // That of the whole patch, and of a part whose bounds are none.
+  cage.ball = vec4(patch.tri.Domain);
+  if (part.size < 1.0) {
+    const Ball ball = part_ball(patch, part, fit);
+    if (ball.radius < patch.tri.Domain.w) {
+      cage.ball = vec4(glm::vec3(ball.center), rounded_up(ball.radius));
+    }
+  }
   cage.node = vec4(glm::vec3(part.origin), static_cast<float>(part.size));
   cage.corner = vec4(glm::vec3(fit.q.corner), rounded_up(fit.stray));
   cage.edge = vec4(glm::vec3(fit.q.edge), rounded_up(fit.tangent_stray));
