@@ -103,6 +103,15 @@ real curvature_toward(vec3 T, real w_a, vec3 vertex, vec3 b, vec4 data) {
   return blended_curvature(curvature_blend(T, w_a, vertex, b, data), data);
 }
 
+// curvature_blend at each vertex.
+vec3 curvature_blends(Triangle tri, vec3 w, vec3 T) {
+  vec3 P0 = vec3(tri.Position[0]);
+  vec3 P1 = vec3(tri.Position[1]);
+  vec3 P2 = vec3(tri.Position[2]);
+  return vec3(curvature_blend(T, w.y, P0, P2, tri.VertexData[0]), curvature_blend(T, w.x, P1, P2, tri.VertexData[1]),
+              curvature_blend(T, w.x, P2, P1, tri.VertexData[2]));
+}
+
 // Directions flatter on a vertex's tangent plane than this sine displace less and less toward its sphere, those beneath it
 // not at all: the definition would send them to infinity.
 const real FLAT_SINE = real(0.25);
@@ -114,20 +123,20 @@ real height_limit(vec3 x0, vec3 D, vec3 N) {
   return length3(x0) * clamp(dot3(D, N) / (FLAT_SINE * size), real(0.0), real(1.0)) / size;
 }
 
-// s_i of the sphere surface: displacement toward the sphere of vertex i, in units of D.
-real sphere_height(vec3 T, real w_a, vec3 D, vec3 vertex, vec3 N, vec3 b, vec4 data) {
+// s_i of the sphere surface: displacement toward the sphere of vertex i, of curvature c, in units of D.
+real sphere_height(vec3 T, vec3 D, vec3 vertex, vec3 N, real c) {
   vec3 x0 = T - vertex;
   real limit = height_limit(x0, D, N);
-  return clamp(sphere_root(x0, D, N, curvature_toward(T, w_a, vertex, b, data)), -limit, limit);
+  return clamp(sphere_root(x0, D, N, c), -limit, limit);
 }
 
-vec3 sphere_heights(Triangle tri, vec3 w, vec3 T, vec3 D) {
-  vec3 P0 = vec3(tri.Position[0]);
-  vec3 P1 = vec3(tri.Position[1]);
-  vec3 P2 = vec3(tri.Position[2]);
-  return vec3(sphere_height(T, w.y, D, P0, vec3(tri.Normal[0]), P2, tri.VertexData[0]),
-              sphere_height(T, w.x, D, P1, vec3(tri.Normal[1]), P2, tri.VertexData[1]),
-              sphere_height(T, w.x, D, P2, vec3(tri.Normal[2]), P1, tri.VertexData[2]));
+vec3 sphere_heights(Triangle tri, vec3 T, vec3 D, vec3 blends) {
+  return vec3(sphere_height(T, D, vec3(tri.Position[0]), vec3(tri.Normal[0]),
+                            blended_curvature(blends.x, tri.VertexData[0])),
+              sphere_height(T, D, vec3(tri.Position[1]), vec3(tri.Normal[1]),
+                            blended_curvature(blends.y, tri.VertexData[1])),
+              sphere_height(T, D, vec3(tri.Position[2]), vec3(tri.Normal[2]),
+                            blended_curvature(blends.z, tri.VertexData[2])));
 }
 
 // sigma(w).
@@ -142,7 +151,7 @@ real displacement(Shape shape, Triangle tri, vec3 w) {
   if (shape.surface == SURFACE_PHONG) {
     return shape.alpha * dot3(D, phong_offset(tri, w, T)) / dot3(D, D);
   }
-  return dot3(w, sphere_heights(tri, w, T, D));
+  return dot3(w, sphere_heights(tri, T, D, curvature_blends(tri, w, T)));
 }
 
 vec3 surface_point(Shape shape, Triangle tri, vec3 w) {
@@ -163,8 +172,8 @@ real phong_derivative(Triangle tri, vec3 w, vec3 dw, vec3 T, vec3 dT, vec3 D, ve
   return alpha * (dot3(dD, K) + dot3(D, dK) - real(2.0) * dot3(D, K) * dot3(D, dD) / DD) / DD;
 }
 
-// Gradient of s_i. `turn` is +n or -n, the axis about which the angle from b to the point grows.
-Gradient sphere_gradient(vec3 T, real w_a, vec3 D, real s, vec3 vertex, vec3 N, vec3 b, vec4 data, vec3 turn) {
+// Gradient of s_i, at this blend of its curvatures. `turn` is +n or -n, the axis about which the angle from b to the point grows.
+Gradient sphere_gradient(vec3 T, vec3 D, real s, vec3 vertex, vec3 N, real blend, vec4 data, vec3 turn) {
   EXACT Gradient gradient;
   vec3 x0 = T - vertex;
   real xx = dot3(x0, x0);
@@ -183,7 +192,6 @@ Gradient sphere_gradient(vec3 T, real w_a, vec3 D, real s, vec3 vertex, vec3 N, 
     if (flat_on && DN > real(0.0)) gradient.along_D += N * (s / DN);
     return gradient;
   }
-  real blend = curvature_blend(T, w_a, vertex, b, data);
   bool turns = blend > LEAST_BLEND && blend < MOST_BLEND;
   real c = blended_curvature(blend, data);
   // Of c.
@@ -246,12 +254,13 @@ Displacement displacement_and_derivatives(Shape shape, Triangle tri, vec3 w) {
   vec3 N0 = vec3(tri.Normal[0]);
   vec3 N1 = vec3(tri.Normal[1]);
   vec3 N2 = vec3(tri.Normal[2]);
-  vec3 s = sphere_heights(tri, w, T, D);
+  vec3 blends = curvature_blends(tri, w, T);
+  vec3 s = sphere_heights(tri, T, D, blends);
   // The angle at a vertex is measured from neighbour b; seen along n, b follows a at vertices 0 and 2
   // (so the angle shrinks as the point turns about +n) and precedes it at vertex 1.
-  Gradient d0 = sphere_gradient(T, w.y, D, s.x, P0, N0, P2, tri.VertexData[0], -n);
-  Gradient d1 = sphere_gradient(T, w.x, D, s.y, P1, N1, P2, tri.VertexData[1], n);
-  Gradient d2 = sphere_gradient(T, w.x, D, s.z, P2, N2, P1, tri.VertexData[2], -n);
+  Gradient d0 = sphere_gradient(T, D, s.x, P0, N0, blends.x, tri.VertexData[0], -n);
+  Gradient d1 = sphere_gradient(T, D, s.y, P1, N1, blends.y, tri.VertexData[1], n);
+  Gradient d2 = sphere_gradient(T, D, s.z, P2, N2, blends.z, tri.VertexData[2], -n);
   vec3 su = vec3(dot3(d0.along_T, Tu) + dot3(d0.along_D, Du), dot3(d1.along_T, Tu) + dot3(d1.along_D, Du),
                  dot3(d2.along_T, Tu) + dot3(d2.along_D, Du));
   vec3 sv = vec3(dot3(d0.along_T, Tv) + dot3(d0.along_D, Dv), dot3(d1.along_T, Tv) + dot3(d1.along_D, Dv),

@@ -331,11 +331,10 @@ TEST(SphereRoot, StaysOnOneSideOfTheSphere) {
 }
 
 TEST(SphereHeight, GoesNoFartherThanFromItsVertex) {
-  const dvec4 data(0.0, 0.0, 1.0, 0.0);
   const dvec3 T(0, 0.3, 0.4);
   const dvec3 N(0, 0, 1);
   const auto length = [&](const dvec3& D) {
-    return in_double::sphere_height(T, 0.5, D, {0, 0, 0}, N, {0, 1, 0}, data) * glm::length(D);
+    return in_double::sphere_height(T, D, {0, 0, 0}, N, 0.0) * glm::length(D);
   };
   // To the plane at right angles; along a slant for which that is farther than to the vertex;
   // almost in the tangent plane; in it and beneath.
