@@ -43,8 +43,9 @@ struct Corners {
   vec3 c;
 };
 
-// Ranges, vec2(least, largest), of sigma's derivatives over a node.
-struct GradientRange {
+// Ranges, vec2(least, largest), of sigma and its derivatives over a node.
+struct SphereRange {
+  vec2 s;
   vec2 u;
   vec2 v;
 };

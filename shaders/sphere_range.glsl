@@ -236,33 +236,26 @@ SphereNode sphere_node(Shape shape, Triangle tri, Node node) {
   return over;
 }
 
-// Of sigma.
-vec2 sphere_range(Triangle tri, SphereNode over) {
-  vec2 sigma = vec2(0.0);
-  for (int i = 0; i < 3; ++i) {
-    HeightRange h = height_range(tri, i, over.T, over.D, over.DD);
-    sigma += range_product(vec2(over.least_weights[i], over.largest_weights[i]), h.held);
-  }
-  return grown(sigma, RANGE_SLACK * largest(sigma));
-}
-
-// Of sigma's derivatives along u and v; UNBOUNDED where nothing is known.
-GradientRange sphere_gradient_range(Shape shape, Triangle tri, SphereNode over) {
+// Of sigma and its derivatives along u and v; UNBOUNDED where nothing is known of those.
+SphereRange sphere_range(Shape shape, Triangle tri, SphereNode over) {
   vec3 Du = direction_change(shape, tri, 1);
   vec3 Dv = direction_change(shape, tri, 2);
   vec3 Tu = vec3(tri.Position[1]) - vec3(tri.Position[0]);
   vec3 Tv = vec3(tri.Position[2]) - vec3(tri.Position[0]);
-  GradientRange sigma;
+  SphereRange sigma;
+  sigma.s = vec2(0.0);
   sigma.u = vec2(0.0);
   sigma.v = vec2(0.0);
   for (int i = 0; i < 3; ++i) {
     HeightRange h = height_range(tri, i, over.T, over.D, over.DD);
     vec2 w = vec2(over.least_weights[i], over.largest_weights[i]);
+    sigma.s += range_product(w, h.held);
     sigma.u += range_product(w, height_change(h, Tu, Du));
     sigma.v += range_product(w, height_change(h, Tv, Dv));
     if (i != 2) sigma.u += i == 1 ? h.held : minus(h.held);
     if (i != 1) sigma.v += i == 2 ? h.held : minus(h.held);
   }
+  sigma.s = grown(sigma.s, RANGE_SLACK * largest(sigma.s));
   // Written so that a NaN bounds nothing.
   bool bounded = over.DD.x > real(0.0) && max(largest(sigma.u), largest(sigma.v)) < real(1e-10) * UNBOUNDED;
   if (!bounded) {
@@ -296,18 +289,17 @@ bool displaced_near_ray(FramedPatch framed, Node node, vec2 sigma, real reach) {
 bool ranged_fit(Shape shape, Triangle tri, FramedPatch framed, Node node, real reach, OUT(Fit) fit,
                 INOUT(uint) evaluations) {
   SphereNode over = sphere_node(shape, tri, node);
-  vec2 sigma = sphere_range(tri, over);
+  SphereRange sigma = sphere_range(shape, tri, over);
   real D = longest(over.D);
-  fit.corner = vec3(real(0.5) * (sigma.x + sigma.y));
+  fit.corner = vec3(real(0.5) * (sigma.s.x + sigma.s.y));
   fit.edge = fit.corner;
-  fit.stray = real(0.5) * (sigma.y - sigma.x) * D;
+  fit.stray = real(0.5) * (sigma.s.y - sigma.s.x) * D;
   fit.tangent_stray = UNBOUNDED;
-  if (!displaced_near_ray(framed, node, sigma, reach)) return false;
-  GradientRange gradient = sphere_gradient_range(shape, tri, over);
-  if (gradient.u.y >= UNBOUNDED) return true;
+  if (!displaced_near_ray(framed, node, sigma.s, reach)) return false;
+  if (sigma.u.y >= UNBOUNDED) return true;
   vec3 c = centre_of(node);
-  vec2 middle = vec2(gradient.u.x + gradient.u.y, gradient.v.x + gradient.v.y) * real(0.5);
-  vec2 off = vec2(gradient.u.y - gradient.u.x, gradient.v.y - gradient.v.x) * real(0.5);
+  vec2 middle = vec2(sigma.u.x + sigma.u.y, sigma.v.x + sigma.v.y) * real(0.5);
+  vec2 off = vec2(sigma.u.y - sigma.u.x, sigma.v.y - sigma.v.x) * real(0.5);
   fit.corner = vec3(0.0);
   fit.edge = vec3(0.0);
   raise(fit, c, displacement(shape, tri, c), middle);

@@ -130,11 +130,9 @@ TEST(SphereRange, HoldsSigmaAndItsChanges) {
     for (int level = 0; level < 9; ++level, path = path << 2U | (random() & 3U)) {
       const in_float::Node node = kernel.widened(kernel.node_at(cage.node, path));
       const auto over = kernel.sphere_node(single_shape, single, node);
-      const glm::vec2 range = kernel.sphere_range(single, over);
-      const in_float::GradientRange gradient =
-          kernel.sphere_gradient_range(single_shape, single, over);
+      const in_float::SphereRange range = kernel.sphere_range(single_shape, single, over);
       ++nodes;
-      if (gradient.u.y < kernel.UNBOUNDED) ++of_known_gradient;
+      if (range.u.y < kernel.UNBOUNDED) ++of_known_gradient;
       double lo = 1e30;
       double hi = -1e30;
       dvec3 before = dvec3(node.origin) + dvec3(double{node.size} / 3.0);
@@ -144,8 +142,8 @@ TEST(SphereRange, HoldsSigmaAndItsChanges) {
         const double sigma = in_double::displacement(shape, tri, w);
         lo = std::min(lo, sigma);
         hi = std::max(hi, sigma);
-        const Interval change = Interval(gradient.u.x, gradient.u.y) * (w.y - before.y) +
-                                Interval(gradient.v.x, gradient.v.y) * (w.z - before.z);
+        const Interval change = Interval(range.u.x, range.u.y) * (w.y - before.y) +
+                                Interval(range.v.x, range.v.y) * (w.z - before.z);
         constexpr double rounding = 1e-14;
         ASSERT_LE(change.lo, sigma - sigma_before + rounding)
             << "triangle " << cage.triangle << " level " << level;
@@ -154,9 +152,9 @@ TEST(SphereRange, HoldsSigmaAndItsChanges) {
         before = w;
         sigma_before = sigma;
       }
-      ASSERT_LE(range.x, lo) << "triangle " << cage.triangle << " level " << level;
-      ASSERT_GE(range.y, hi) << "triangle " << cage.triangle << " level " << level;
-      widths += static_cast<double>(range.y) - range.x;
+      ASSERT_LE(range.s.x, lo) << "triangle " << cage.triangle << " level " << level;
+      ASSERT_GE(range.s.y, hi) << "triangle " << cage.triangle << " level " << level;
+      widths += static_cast<double>(range.s.y) - range.s.x;
       seen += hi - lo;
     }
   }
