@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <vector>
 
 #include "app/cage_net.h"
 #include "app/enclosing_ball.h"
@@ -23,12 +25,11 @@ using glm::dvec3;
 
 // A cage's quadratic must follow sigma to this part of the longest edge of its part of the
 // triangle, and its tangents S's to this part of it; else the part is divided, at most so many
-// times.
+// times. A part with a kink, whose tangents no quadratic follows, is divided further by the kernel,
+// for the few rays that come near.
 constexpr double kClose = 0.02;
 constexpr double kTangentsClose = 0.1;
 constexpr int kMostLevels = 6;
-// A part with a kink is divided further by the kernel, for the few rays that come near.
-constexpr int kKinkedLevels = 5;
 // Interval arithmetic is tighter over pieces of a part: 4^2 of them.
 constexpr int kProofDivisions = 2;
 
@@ -51,11 +52,19 @@ struct CagedPatch {
   glm::vec3 bulges;  // the kernels' edge_bulges
 };
 
+// A piece of a part, and the range of sigma over it, if D does not vanish.
+struct RangedPiece {
+  Part part;
+  PartCorners corners;
+  std::optional<Interval> sigma;
+};
+
 struct Fit {
   CageQuadratic q;
-  double stray = 0.0;          // of S, a length
-  double tangent_stray = 0.0;  // of S_u and S_v
-  double bend = 0.0;           // Cage::bend
+  double stray = 0.0;               // of S, a length
+  double tangent_stray = 0.0;       // of S_u and S_v
+  double bend = 0.0;                // Cage::bend
+  std::vector<RangedPiece> pieces;  // of a part that may have a kink, its overlap included
 };
 
 CagedPatch patch_of(const SurfaceChoice& choice, const Triangle& single, in_float::Kernel& kernel) {
@@ -153,33 +162,34 @@ bool may_be_kinked(const CagedPatch& patch, const Part& part, int divisions) {
                      [&](const Part& piece) { return may_be_kinked(patch, piece, divisions - 1); });
 }
 
-// The most by which S strays from T + q D over a part, proven.
-double proven_stray(const CagedPatch& patch, const CageQuadratic& q, const Part& part,
-                    int divisions) {
+void add_pieces(const CagedPatch& patch, const Part& part, int divisions,
+                std::vector<RangedPiece>& pieces) {
   if (divisions > 0) {
-    double most = 0.0;
-    for (const Part& piece : quarter(part)) {
-      raise(most, proven_stray(patch, q, piece, divisions - 1));
-    }
-    return most;
+    for (const Part& piece : quarter(part)) add_pieces(patch, piece, divisions - 1, pieces);
+    return;
   }
   const PartCorners corners = corners_of(patch.ranges, part);
-  const auto sigma = sphere_sigma_range(patch.ranges, part, corners);
-  if (!sigma) return kInfinity;
-  Interval quadratic = q.blossom(part[0], part[0]);
+  pieces.push_back({part, corners, sphere_sigma_range(patch.ranges, part, corners)});
+}
+
+// The most by which S strays from T + q D over a piece, proven.
+double proven_stray(const CageQuadratic& q, const RangedPiece& piece) {
+  if (!piece.sigma) return kInfinity;
+  Interval quadratic = q.blossom(piece.part[0], piece.part[0]);
   for (std::size_t i = 0; i < 3; ++i) {
-    quadratic = hull(quadratic, q.blossom(part[i], part[i]));
-    quadratic = hull(quadratic, q.blossom(part[i], part[(i + 1) % 3]));
+    quadratic = hull(quadratic, q.blossom(piece.part[i], piece.part[i]));
+    quadratic = hull(quadratic, q.blossom(piece.part[i], piece.part[(i + 1) % 3]));
   }
-  const Interval e = *sigma - quadratic;
-  return std::max(-e.lo, e.hi) * longest_of(corners.D);
+  const Interval e = *piece.sigma - quadratic;
+  return std::max(-e.lo, e.hi) * longest_of(piece.corners.D);
 }
 
 // The quadratic of a part of the sphere surface that may have a kink.
 Fit kinked_fit(const CagedPatch& patch, const SubTriangle& part, Fit fit, double rounded) {
   constexpr double most = std::numeric_limits<float>::max();
-  const double stray =
-      proven_stray(patch, fit.q, corners_of(enlarged(part, OVERLAP)), kProofDivisions);
+  add_pieces(patch, corners_of(enlarged(part, OVERLAP)), kProofDivisions, fit.pieces);
+  double stray = 0.0;
+  for (const RangedPiece& piece : fit.pieces) raise(stray, proven_stray(fit.q, piece));
   fit.stray = std::isfinite(stray) ? stray + rounded : most;
   fit.tangent_stray = most;
   fit.bend = KINKED;
@@ -227,34 +237,23 @@ Fit fit(const CagedPatch& patch, const SubTriangle& part) {
   return fit;
 }
 
-// Points around a part with a kink: its pieces' corners displaced by the least and the largest
-// sigma. Closer than the part's quadratic where directions are long.
-void add_displaced(const CagedPatch& patch, const Part& part, int divisions,
-                   std::vector<Ball>& points) {
-  if (divisions > 0) {
-    for (const Part& piece : quarter(part)) add_displaced(patch, piece, divisions - 1, points);
-    return;
-  }
-  const PartCorners corners = corners_of(patch.ranges, part);
-  const auto sigma = sphere_sigma_range(patch.ranges, part, corners);
-  if (!sigma) {
-    points.push_back({dvec3(patch.tri.Domain), patch.tri.Domain.w});
-    return;
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    points.push_back({corners.T[i] + corners.D[i] * sigma->lo, 0.0});
-    points.push_back({corners.T[i] + corners.D[i] * sigma->hi, 0.0});
-  }
-}
-
 // The ball around a part, its overlap with the next ones included.
 Ball part_ball(const CagedPatch& patch, const SubTriangle& part, const Fit& fit) {
-  const SubTriangle large = enlarged(part, OVERLAP);
   std::vector<Ball> points;
-  if (fit.bend == KINKED) {
-    add_displaced(patch, corners_of(large), kProofDivisions, points);
-  } else {
-    for (const dvec3& point : net_of(patch.corners, large, fit.q)) {
+  // Around a part with a kink its pieces' corners displaced by the least and the largest sigma:
+  // closer than the part's quadratic where directions are long.
+  for (const auto& [piece, corners, sigma] : fit.pieces) {
+    if (!sigma) {
+      points.push_back({dvec3(patch.tri.Domain), patch.tri.Domain.w});
+      continue;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      points.push_back({corners.T[i] + corners.D[i] * sigma->lo, 0.0});
+      points.push_back({corners.T[i] + corners.D[i] * sigma->hi, 0.0});
+    }
+  }
+  if (fit.pieces.empty()) {
+    for (const dvec3& point : net_of(patch.corners, enlarged(part, OVERLAP), fit.q)) {
       points.push_back({point, fit.stray});
     }
   }
@@ -358,7 +357,7 @@ void cage_part(const CagedPatch& patch, const SubTriangle& part, int level, uint
   const std::size_t index = cages.size();
   cages.push_back(cage_of(patch, part, found, triangle));
   const bool kinked = cages[index].bend == KINKED;
-  if (close || level == (kinked ? kKinkedLevels : kMostLevels)) {
+  if (close || level == kMostLevels) {
     if (!kinked) cages[index].cone = normal_cone(patch, part, found);
     if (cages[index].cone.w <= kWide || level >= kLevelsForCones) return;
   }
