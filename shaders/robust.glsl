@@ -17,11 +17,16 @@ const uint FOUND_NONE = 1u;
 const uint FOUND_NOTHING = 2u;  // neither a root nor that there is none
 
 const int MOST_STEPS = 10;
+// Of a node's size. Steps this small leave an error of their square.
+const real SMALL_STEP = real(1e-4);
 const int ONCE_STEPS = 6;
 // In weights of the part: a step of this size leaves an error of its square.
 const real ONCE_MOVED = real(1e-4);
 // No step is smaller than the roundings of a weight.
 const real WEIGHT_ROUNDINGS = real(2.4e-7);
+// Beside the curves on which lines begin to miss a sphere sigma's roundings keep the steps of a `rough` search from getting
+// smaller: the last may have this part of the node's size.
+const real ROUGH_STEP = real(0.0625);
 // What the loops of one node take of Walk::steps, beside the evaluations.
 const int VISIT_STEPS = 8;
 
@@ -138,9 +143,10 @@ vec3 closest_on_border(vec3 from, vec3 target, vec2 f, vec2 u, vec2 v) {
 }
 
 // Newton's method from the weights l within a node. If the node is `certified` to hold one root at most,
-// FOUND_NONE is a proof. On a root: its place along the ray, and its weights.
-uint newton(Shape shape, Triangle tri, Cage cage, FramedPatch framed, Node node, Mean mean, bool certified, real reach,
-            vec3 l, OUT(real) z, OUT(vec3) weights, INOUT(uint) evaluations) {
+// FOUND_NONE is a proof. `rough`: a root may be known no better than ROUGH_STEP. On a root: its place along the ray, and its
+// weights.
+uint newton(Shape shape, Triangle tri, Cage cage, FramedPatch framed, Node node, Mean mean, bool certified, bool rough,
+            real reach, vec3 l, OUT(real) z, OUT(vec3) weights, INOUT(uint) evaluations) {
   z = real(0.0);
   weights = weights_of(node, l);
   for (int i = 0; i < MOST_STEPS; ++i) {
@@ -166,11 +172,9 @@ uint newton(Shape shape, Triangle tri, Cage cage, FramedPatch framed, Node node,
       target = weights_of(node, held_inside(inside));
     }
     weights = target;
-    // Steps this small leave an error of their square; from outside the patch, where the sphere surface's tangents
-    // may jump, of their size.
-    real small_step = least(from) < real(0.0) ? real(1e-6) : real(1e-4);
     real moved = max(abs(target.y - from.y), abs(target.z - from.z));
-    if (moved > max(small_step * abs(node.size), WEIGHT_ROUNDINGS) && !exact) continue;
+    bool settled = rough && !held && i == MOST_STEPS - 1 && moved <= ROUGH_STEP * abs(node.size);
+    if (moved > max(SMALL_STEP * abs(node.size), WEIGHT_ROUNDINGS) && !exact && !settled) continue;
     // Of a node's border only what it shares with the patch's is of interest: beyond the rest of it lie other
     // nodes, which overlap this one.
     if (held) return FOUND_NOTHING;
@@ -332,13 +336,15 @@ void meet_part(Shape shape, bool kinks, Triangle tri, Cage cage, uint part, RayF
       real stray = frame.stretch * fit.tangent_stray * abs(wide.size) / real(3.0);
       Mean mean = mean_tangents(tangents(net), stray);
       bool certified = mean.spread < real(1.0);
+      // Where the steps must get small but for roundings, and no smaller node is left.
+      bool rough = kinks && cage.bend == KINKED && certified && last;
       divide = !certified && !last;
       int starts = divide ? 0 : certified ? 1 : 3;
       vec3 start = certified ? flat_guess(net) : vec3(1.0, 0.0, 0.0);
       for (int k = 0; k < starts; ++k) {
         real z;
         vec3 weights;
-        uint found = newton(shape, tri, cage, framed, wide, mean, certified, reach, start, z, weights,
+        uint found = newton(shape, tri, cage, framed, wide, mean, certified, rough, reach, start, z, weights,
                             walk.counts.evaluations);
         if (found == FOUND_ROOT) keep_nearest(z, weights, cage.triangle, part, nearest, walk.hit);
         divide = certified && found == FOUND_NOTHING && !last;
