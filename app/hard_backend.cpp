@@ -23,7 +23,7 @@ HardBackend vulkan_hard_backend(const gpu::Device& device) {
                      const BakedScene& scene, const TraceParams& params, uint solver,
                      std::span<const CastRay> rays) {
     auto& kernel = (*kernels)[{scene.choice.surface, scene.choice.shell, solver}];
-    if (!kernel) kernel = RayCaster::kernel_for(device, scene.choice, solver, true, false);
+    if (!kernel) kernel = RayCaster::kernel_for(device, scene.choice, solver, {});
     return RayCaster(device, scene, params, solver, kernel).cast(rays);
   };
   backend.render = [&device](const BakedScene& scene, const TraceParams& params,

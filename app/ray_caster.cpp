@@ -18,23 +18,22 @@ constexpr std::size_t kBatchBytes = kBatch * sizeof(CastRay);
 
 std::shared_ptr<const gpu::Kernel> RayCaster::kernel_for(const gpu::Device& device,
                                                          const SurfaceChoice& choice, uint solver,
-                                                         bool groups, bool bvh) {
+                                                         const Needs& needs) {
   return std::make_shared<const gpu::Kernel>(
-      device, bvh ? kCastByBvhSpirv : kCastRaysSpirv, cast_rays_interface(),
+      device, needs.bvh ? kCastByBvhSpirv : kCastRaysSpirv, cast_rays_interface(),
       std::vector<gpu::Specialization>{{CONSTANT_SURFACE, choice.surface},
                                        {CONSTANT_SHELL, choice.shell},
                                        {CONSTANT_SOLVER, solver},
-                                       {CONSTANT_GROUPS, groups ? 1U : 0U},
-                                       // Only a divided patch has any.
-                                       {CONSTANT_KINKS, groups ? 1U : 0U}},
+                                       {CONSTANT_GROUPS, needs.groups ? 1U : 0U},
+                                       {CONSTANT_KINKS, needs.kinks ? 1U : 0U}},
       "cast_rays");
 }
 
 RayCaster::RayCaster(const gpu::Device& device, const BakedScene& scene, const TraceParams& params,
                      uint solver, std::shared_ptr<const gpu::Kernel> kernel, uint32_t steps)
-    : kernel_(
-          kernel ? std::move(kernel)
-                 : kernel_for(device, scene.choice, solver, has_groups(scene), !scene.bvh.empty())),
+    : kernel_(kernel ? std::move(kernel)
+                     : kernel_for(device, scene.choice, solver,
+                                  {has_groups(scene), has_kinks(scene), !scene.bvh.empty()})),
       commands_(device),
       staging_(device, kBatchBytes),
       params_(device, sizeof(TraceParams), gpu::Memory::device, "trace parameters"),

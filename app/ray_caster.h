@@ -16,19 +16,26 @@ namespace trisect {
 
 class RayCaster {
  public:
+  // What a kernel must be made for: divided patches (has_groups), parts with kinks (has_kinks), and
+  // whether rays go by a bvh, which all of its scenes then need.
+  struct Needs {
+    bool groups = true;
+    bool kinks = true;
+    bool bvh = false;
+  };
+
   // params: rank, resolution, min_delta, alpha and the counts of triangles and cages; its camera is
   // not used. solver: SOLVER_ROBUST needs the scene's cages. Throws gpu::Error if the device cannot
   // hold the scene.
   // If the scene has a bvh rays go by it, else through every patch.
-  // kernel: one of kernel_for(device, scene.choice, solver, groups, bvh) that several scenes share,
-  // `groups` true if has_groups() of any of them, `bvh` if all have one; without one the scene's
-  // own is compiled.
+  // kernel: one of kernel_for(device, scene.choice, solver, needs) that several scenes share,
+  // `needs` of all of them; without one the scene's own is compiled.
   RayCaster(const gpu::Device& device, const BakedScene& scene, const TraceParams& params,
             uint solver, std::shared_ptr<const gpu::Kernel> kernel = nullptr,
             uint32_t steps = RayQueue::kSteps);
   static std::shared_ptr<const gpu::Kernel> kernel_for(const gpu::Device& device,
                                                        const SurfaceChoice& choice, uint solver,
-                                                       bool groups, bool bvh);
+                                                       const Needs& needs);
 
   // One hit for each ray. progress, if set, is told how many rays are done, between submits; what
   // it throws stops the cast.
