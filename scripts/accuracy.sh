@@ -1,6 +1,6 @@
 #!/bin/bash
 # Measures the solvers against the oracle and on the hard cases, and writes docs/accuracy.md. The argument is the
-# image size, 800x600 without one (an hour and a half, most of it the oracle on the sphere surface).
+# image size, 800x600 without one (half an hour, most of it the oracle on the sphere surface).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . scripts/measure.sh
@@ -49,13 +49,21 @@ END
 
 ## Beside the bisection
 
-Milliseconds on the device, the median of 5 frames of 400x300, Phong Tessellation; the bisection is at Rank 10.
+Milliseconds on the device, the median of 5 frames of 400x300; the bisection is at Rank 10.
 
-| model | robust, normal shell | robust, height shell | bisect, height shell |
-|---|---|---|---|
+| model | surface | robust, normal shell | robust, height shell | bisect, normal shell | bisect, height shell |
+|---|---|---|---|---|---|
 END
-  for model in "${all[@]:0:9}"; do
-    echo "| $model | $(milliseconds "$model") | $(milliseconds "$model" --shell height) | $(milliseconds "$model" --preset thesis) |"
+  for surface in phong sphere; do
+    for model in "${all[@]}"; do
+      printf '| %s | %s ' "$model" "$surface"
+      for solver in robust bisect; do
+        for shell in normal height; do
+          printf '| %s ' "$(milliseconds "$model" --surface "$surface" --solver "$solver" --shell "$shell")"
+        done
+      done
+      echo '|'
+    done
   done
   cat <<END
 
