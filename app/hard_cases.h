@@ -43,12 +43,8 @@ struct RayCase {
   // Of a surface without border whose faces turn outward, met from outside: a ray that first meets
   // a back comes through a crack.
   bool closed = false;
-  // The oracle takes up to seconds for a ray at the sphere surface that grazes a patch; so many
-  // rays are left for each surface, drawn from all.
+  // The oracle takes up to a second for a ray that grazes a patch: so many are drawn from all.
   std::size_t most_rays = 120;
-  std::size_t most_sphere_rays = 24;
-  // Where it takes minutes: no height shell with the sphere surface.
-  bool sphere_in_height = true;
 };
 
 // Counts of what went otherwise than it should, as analysis says.

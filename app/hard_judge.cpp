@@ -74,8 +74,7 @@ Prepared prepare(const RayCase& hard, uint surface, uint shell) {
   std::mt19937_64 random(7);
   prepared.rays = hard.rays(prepared.scene, random);
   std::shuffle(prepared.rays.begin(), prepared.rays.end(), random);
-  prepared.rays.resize(std::min(
-      prepared.rays.size(), surface == SURFACE_SPHERE ? hard.most_sphere_rays : hard.most_rays));
+  prepared.rays.resize(std::min(prepared.rays.size(), hard.most_rays));
   prepared.answers = oracle_answers(Oracle(prepared.scene), prepared.rays, prepared.scene.radius);
   return prepared;
 }
@@ -181,10 +180,6 @@ std::vector<HardRow> run_rows(const RayCase& hard, uint surface, const HardBacke
   rows.push_back(row_of(hard, normal, SOLVER_ROBUST, backend));
   if (surface == SURFACE_FLAT) {
     rows.push_back(row_of(hard, normal, SOLVER_BISECT, backend));
-    return rows;
-  }
-  if (surface == SURFACE_SPHERE && !hard.sphere_in_height) {
-    rows.back().outcome.note = "no height shell: the oracle takes minutes";
     return rows;
   }
   const Prepared height = prepare(hard, surface, SHELL_HEIGHT);

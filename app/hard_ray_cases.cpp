@@ -221,7 +221,6 @@ void add_single_patches(std::vector<RayCase>& cases) {
   cases.push_back(
       on_patch("in-plane-of-flat", "in the plane of a flat triangle", gutter, in_plane));
   cases.back().most_rays = 12;
-  cases.back().most_sphere_rays = 12;
   cases.back().surfaces = {SURFACE_FLAT, SURFACE_PHONG, SURFACE_SPHERE};
   cases.push_back(on_patch("parallel-to-base", "parallel to the base, through the bulge", bulge,
                            [](const BakedScene& scene, std::mt19937_64& random) {

@@ -163,13 +163,9 @@ void add_normals(std::vector<RayCase>& cases) {
   cases.push_back(shape("normal-in-face", "a normal 89.9 degrees off the face's", [] {
     return hard::plain_patch({tilted(89.9, dvec3(-1, -0.3, 0)), kUp, kUp});
   }));
-  cases.back().most_sphere_rays = 8;
-  cases.back().sphere_in_height = false;
   cases.push_back(shape("normal-behind-face", "a normal 120 degrees off the face's", [] {
     return hard::plain_patch({tilted(120, dvec3(-1, -0.3, 0)), kUp, kUp});
   }));
-  cases.back().most_sphere_rays = 8;
-  cases.back().sphere_in_height = false;
 }
 
 void add_forms(std::vector<RayCase>& cases) {
@@ -182,8 +178,6 @@ void add_forms(std::vector<RayCase>& cases) {
     return hard::plain_patch(
         {tilted(75, dvec3(1, 0.3, 0)), tilted(75, dvec3(-1, 0.3, 0)), tilted(75, dvec3(0, -1, 0))});
   }));
-  cases.back().most_sphere_rays = 8;
-  cases.back().sphere_in_height = false;
   cases.push_back(shape("almost-flat", "curvatures that go to 0 from both sides", almost_flat));
   cases.push_back(
       shape("missed-sphere", "lines along the shell that pass by a vertex's small sphere", [] {
@@ -191,8 +185,6 @@ void add_forms(std::vector<RayCase>& cases) {
                            {tilted(80, dvec3(-1, 0.5, 0)), tilted(70, dvec3(0.2, -1, 0)),
                             tilted(60, dvec3(-1, 1, 0))});
       }));
-  cases.back().most_sphere_rays = 8;
-  cases.back().sphere_in_height = false;
   cases.push_back(shape("next-to-a-vertex", "where the angle at the vertex is 0 over 0",
                         [] { return hard::sphere(); }));
   cases.back().rays = rays_next_to_vertices;
@@ -208,8 +200,6 @@ void add_neighbours(std::vector<RayCase>& cases) {
   cases.back().rays = rays_next_to_border;
   cases.push_back(
       shape("mixed-winding", "every other face is turned over", every_other_face_turned));
-  cases.back().most_sphere_rays = 8;
-  cases.back().sphere_in_height = false;
   cases.push_back(
       shape("coincident-patches", "the same patch three times, and one across it", coincident));
   for (const double alpha : {0.0, 1.0, 2.0}) {
