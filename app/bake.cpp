@@ -90,7 +90,7 @@ BakedScene bake(const Mesh& mesh, const SurfaceChoice& choice) {
         2.0 * scene.extent, smallest, largest));
   }
   scene.triangles.resize(mesh.triangles.size());
-  parallel_chunks(mesh.triangles.size(), [&](std::size_t first, std::size_t end) {
+  parallel_chunks(mesh.triangles.size(), kChunk, [&](std::size_t first, std::size_t end) {
     for (std::size_t k = first; k < end; ++k) {
       const MeshTriangle& t = mesh.triangles[k];
       std::array<dvec3, 3> positions{};

@@ -382,9 +382,11 @@ bool has_kinks(const BakedScene& scene) {
 }
 
 std::vector<Cage> bake_cages(const BakedScene& scene) {
-  std::vector<std::vector<Cage>> chunks(scene.triangles.size() / kChunk + 1);
-  parallel_chunks(scene.triangles.size(), [&](std::size_t first, std::size_t end) {
-    std::vector<Cage>& cages = chunks[first / kChunk];
+  // A patch with kinks takes some hundredths of a second.
+  constexpr std::size_t size = 16;
+  std::vector<std::vector<Cage>> chunks(scene.triangles.size() / size + 1);
+  parallel_chunks(scene.triangles.size(), size, [&](std::size_t first, std::size_t end) {
+    std::vector<Cage>& cages = chunks[first / size];
     cages.reserve(end - first);
     const TraceParams no_frame{};
     in_float::Kernel kernel = in_float::kernel_of(scene, no_frame, {});

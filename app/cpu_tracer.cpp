@@ -58,7 +58,7 @@ std::vector<CastHit> cast_on_cpu(const BakedScene& scene, const TraceParams& par
                                  std::span<const CastRay> rays) {
   std::vector<CastHit> hits(rays.size());
   const Kernel shared = in_float::kernel_of(scene, params, {solver, false, true});
-  parallel_chunks(rays.size(), [&](std::size_t first, std::size_t end) {
+  parallel_chunks(rays.size(), kChunk, [&](std::size_t first, std::size_t end) {
     Kernel kernel = shared;
     for (std::size_t i = first; i < end; ++i) {
       const Kernel::PixelRay ray = kernel.ray_cast(rays[i]);

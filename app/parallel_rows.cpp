@@ -59,14 +59,14 @@ void parallel_rows(uint32_t height, const std::function<void(uint32_t)>& row,
   if (progress) progress(height);
 }
 
-void parallel_chunks(std::size_t count,
+void parallel_chunks(std::size_t count, std::size_t size,
                      const std::function<void(std::size_t, std::size_t)>& chunk) {
-  if (count <= kChunk) {
+  if (count <= size) {
     if (count > 0) chunk(0, count);
     return;
   }
-  const auto row = [&](uint32_t k) { chunk(k * kChunk, std::min((k + 1) * kChunk, count)); };
-  parallel_rows(static_cast<uint32_t>((count + kChunk - 1) / kChunk), row, {});
+  const auto row = [&](uint32_t k) { chunk(k * size, std::min((k + 1) * size, count)); };
+  parallel_rows(static_cast<uint32_t>((count + size - 1) / size), row, {});
 }
 
 }  // namespace trisect

@@ -13,11 +13,12 @@ namespace trisect {
 void parallel_rows(uint32_t height, const std::function<void(uint32_t)>& row,
                    const std::function<void(uint32_t)>& progress);
 
-// Calls chunk(first, end) for consecutive ranges of less than `count` items, on as many threads as
-// there are cores. What it throws stops the rest and is thrown here.
-void parallel_chunks(std::size_t count, const std::function<void(std::size_t, std::size_t)>& chunk);
+// Calls chunk(first, end) for consecutive ranges of `size` items of `count`, the last one shorter,
+// on as many threads as there are cores. What it throws stops the rest and is thrown here.
+void parallel_chunks(std::size_t count, std::size_t size,
+                     const std::function<void(std::size_t, std::size_t)>& chunk);
 
-// Items of a chunk.
+// Of items that take some microseconds each.
 constexpr std::size_t kChunk = 1024;
 
 }  // namespace trisect

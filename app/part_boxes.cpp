@@ -36,7 +36,7 @@ PartBox part_box(const Triangle& single, const Cage& cage, uint shell, double sl
 std::vector<PartBox> part_boxes(const BakedScene& scene) {
   std::vector<PartBox> boxes(scene.cages.size());
   const double slack = static_cast<double>(BVH_SLACK) * scene.radius;
-  parallel_chunks(boxes.size(), [&](std::size_t first, std::size_t end) {
+  parallel_chunks(boxes.size(), kChunk, [&](std::size_t first, std::size_t end) {
     for (std::size_t i = first; i < end; ++i) {
       const Cage& cage = scene.cages[i];
       boxes[i] = part_box(scene.triangles[cage.triangle], cage, scene.choice.shell, slack);
