@@ -99,10 +99,6 @@ real curvature_blend(vec3 T, real w_a, vec3 vertex, vec3 b, vec4 data) {
 // The curvature at a vertex in that direction, from those toward its neighbours (a the lower-numbered one).
 real blended_curvature(real blend, vec4 data) { return data.y + blend * (data.x - data.y); }
 
-real curvature_toward(vec3 T, real w_a, vec3 vertex, vec3 b, vec4 data) {
-  return blended_curvature(curvature_blend(T, w_a, vertex, b, data), data);
-}
-
 // curvature_blend at each vertex.
 vec3 curvature_blends(Triangle tri, vec3 w, vec3 T) {
   vec3 P0 = vec3(tri.Position[0]);
@@ -172,7 +168,8 @@ real phong_derivative(Triangle tri, vec3 w, vec3 dw, vec3 T, vec3 dT, vec3 D, ve
   return alpha * (dot3(dD, K) + dot3(D, dK) - real(2.0) * dot3(D, K) * dot3(D, dD) / DD) / DD;
 }
 
-// Gradient of s_i, at this blend of its curvatures. `turn` is +n or -n, the axis about which the angle from b to the point grows.
+// Gradient of s_i, at this blend of its curvatures. `turn` is +n or -n, the axis about which the angle from the neighbour b
+// to the point grows.
 Gradient sphere_gradient(vec3 T, vec3 D, real s, vec3 vertex, vec3 N, real blend, vec4 data, vec3 turn) {
   EXACT Gradient gradient;
   vec3 x0 = T - vertex;

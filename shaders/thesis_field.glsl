@@ -79,12 +79,10 @@ vec4 SphereField(Triangle tri, vec3 pos) {
   cw /= cw.x + cw.y + cw.z;
   EXACT vec3 triPos = weigh(cw, P0, P1, P2);
   vec3 dir = inward(pos, triPos, height, shell_direction(SHELL_HEIGHT, tri, cw));
-  vec3 dist = vec3(SphereDist(pos, dir, P0, vec3(tri.Normal[0]),
-                              curvature_toward(triPos, cw.y, P0, P2, tri.VertexData[0])),
-                   SphereDist(pos, dir, P1, vec3(tri.Normal[1]),
-                              curvature_toward(triPos, cw.x, P1, P2, tri.VertexData[1])),
-                   SphereDist(pos, dir, P2, vec3(tri.Normal[2]),
-                              curvature_toward(triPos, cw.x, P2, P1, tri.VertexData[2])));
+  vec3 blends = curvature_blends(tri, cw, triPos);
+  vec3 dist = vec3(SphereDist(pos, dir, P0, vec3(tri.Normal[0]), blended_curvature(blends.x, tri.VertexData[0])),
+                   SphereDist(pos, dir, P1, vec3(tri.Normal[1]), blended_curvature(blends.y, tri.VertexData[1])),
+                   SphereDist(pos, dir, P2, vec3(tri.Normal[2]), blended_curvature(blends.z, tri.VertexData[2])));
   return vec4(weights, dot3(dist, weights));
 }
 
