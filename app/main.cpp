@@ -9,14 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "app/base/error.h"
 #include "app/bench/command_line.h"
-#include "app/command_options.h"
-#include "app/commands.h"
-#include "app/error.h"
-#include "app/interrupt.h"
-#include "app/scene_options.h"
+#include "app/cli/command_options.h"
+#include "app/cli/commands.h"
+#include "app/cli/interrupt.h"
+#include "app/cli/scene_options.h"
 #include "app/view/command_line.h"
-#include "vk/result.h"
 
 namespace trisect {
 namespace {
@@ -222,7 +221,7 @@ int main(int argc, char** argv) {
     return fail(exit_usage, error.what());
   } catch (const InputError& error) {
     return fail(exit_bad_input, error.what());
-  } catch (const gpu::Error& error) {
+  } catch (const DeviceError& error) {
     return fail(exit_no_device, error.what());
   } catch (const Interrupted& error) {
     return fail(exit_interrupted, error.what());

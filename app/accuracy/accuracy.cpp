@@ -1,10 +1,10 @@
-#include "app/accuracy.h"
+#include "app/accuracy/accuracy.h"
 
 #include <cmath>
 #include <stdexcept>
 #include <vector>
 
-#include "app/oracle_tracer.h"
+#include "app/oracle/oracle_tracer.h"
 
 namespace trisect {
 namespace {

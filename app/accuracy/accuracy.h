@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "app/bake.h"
-#include "app/frame.h"
-#include "app/oracle.h"
-#include "app/quantiles.h"
-#include "app/shared.h"
+#include "app/bake/bake.h"
+#include "app/base/quantiles.h"
+#include "app/frame/frame.h"
+#include "app/oracle/oracle.h"
+#include "app/surface/shared.h"
 
 namespace trisect {
 

@@ -1,4 +1,4 @@
-#include "app/bake.h"
+#include "app/bake/bake.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
-#include "app/error.h"
-#include "app/parallel_rows.h"
-#include "app/patch_bounds.h"
-#include "app/rounding.h"
+#include "app/bake/patch_bounds.h"
+#include "app/base/error.h"
+#include "app/base/parallel_rows.h"
+#include "app/base/rounding.h"
 
 namespace trisect {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "app/mesh.h"
-#include "app/shared.h"
-#include "app/surface_choice.h"
+#include "app/mesh/mesh.h"
+#include "app/surface/shared.h"
+#include "app/surface/surface_choice.h"
 
 namespace trisect {
 

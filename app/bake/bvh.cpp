@@ -1,4 +1,4 @@
-#include "app/bvh.h"
+#include "app/bake/bvh.h"
 
 #include <embree3/rtcore.h>
 
@@ -12,8 +12,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "app/error.h"
-#include "app/part_boxes.h"
+#include "app/bake/part_boxes.h"
+#include "app/base/error.h"
 
 namespace trisect {
 namespace {

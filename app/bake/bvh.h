@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "app/bake.h"
-#include "app/shared.h"
+#include "app/bake/bake.h"
+#include "app/surface/shared.h"
 
 namespace trisect {
 

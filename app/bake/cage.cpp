@@ -1,4 +1,4 @@
-#include "app/cage.h"
+#include "app/bake/cage.h"
 
 #include <algorithm>
 #include <array>
@@ -7,16 +7,16 @@
 #include <optional>
 #include <vector>
 
-#include "app/cage_net.h"
-#include "app/enclosing_ball.h"
-#include "app/kernel_float.h"
-#include "app/parallel_rows.h"
-#include "app/patch_range.h"
-#include "app/raise.h"
-#include "app/rounding.h"
-#include "app/sphere_range.h"
-#include "app/surface_double.h"
-#include "app/widen.h"
+#include "app/bake/cage_net.h"
+#include "app/bake/enclosing_ball.h"
+#include "app/base/parallel_rows.h"
+#include "app/base/raise.h"
+#include "app/base/rounding.h"
+#include "app/surface/patch_range.h"
+#include "app/surface/sphere_range.h"
+#include "app/surface/surface_double.h"
+#include "app/surface/surface_float.h"
+#include "app/surface/widen.h"
 
 namespace trisect {
 namespace {
@@ -67,10 +67,10 @@ struct Fit {
   std::vector<RangedPiece> pieces;  // of a part that may have a kink, its overlap included
 };
 
-CagedPatch patch_of(const SurfaceChoice& choice, const Triangle& single, in_float::Kernel& kernel) {
+CagedPatch patch_of(const SurfaceChoice& choice, const Triangle& single) {
   const in_double::Triangle tri = widen(single);
   return {shape_of(choice), tri, corners_of(tri, choice.shell), patch_of(choice.shell, single),
-          kernel.edge_bulges(single, static_cast<float>(choice.alpha))};
+          in_float::edge_bulges(single, static_cast<float>(choice.alpha))};
 }
 
 // The quadratic with these values at the part's corners and at the middles of its edges.
@@ -388,11 +388,8 @@ std::vector<Cage> bake_cages(const BakedScene& scene) {
   parallel_chunks(scene.triangles.size(), size, [&](std::size_t first, std::size_t end) {
     std::vector<Cage>& cages = chunks[first / size];
     cages.reserve(end - first);
-    const TraceParams no_frame{};
-    in_float::Kernel kernel = in_float::kernel_of(scene, no_frame, {});
     for (std::size_t t = first; t < end; ++t) {
-      cage_part(patch_of(scene.choice, scene.triangles[t], kernel), {}, 0, static_cast<uint32_t>(t),
-                cages);
+      cage_part(patch_of(scene.choice, scene.triangles[t]), {}, 0, static_cast<uint32_t>(t), cages);
     }
   });
   std::vector<Cage> cages;

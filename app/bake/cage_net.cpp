@@ -1,4 +1,4 @@
-#include "app/cage_net.h"
+#include "app/bake/cage_net.h"
 
 namespace trisect {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <glm/glm.hpp>
 
-#include "app/shared.h"
-#include "app/surface_double.h"
+#include "app/surface/shared.h"
+#include "app/surface/surface_double.h"
 
 namespace trisect {
 

@@ -1,4 +1,4 @@
-#include "app/enclosing_ball.h"
+#include "app/bake/enclosing_ball.h"
 
 #include <algorithm>
 #include <cmath>

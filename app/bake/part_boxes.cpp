@@ -1,11 +1,11 @@
-#include "app/part_boxes.h"
+#include "app/bake/part_boxes.h"
 
 #include <limits>
 
-#include "app/cage_net.h"
-#include "app/parallel_rows.h"
-#include "app/rounding.h"
-#include "app/widen.h"
+#include "app/bake/cage_net.h"
+#include "app/base/parallel_rows.h"
+#include "app/base/rounding.h"
+#include "app/surface/widen.h"
 
 namespace trisect {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/patch_bounds.h"
+#include "app/bake/patch_bounds.h"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/patch_range.h"
-#include "app/sphere_range.h"
+#include "app/surface/patch_range.h"
+#include "app/surface/sphere_range.h"
 
 namespace trisect {
 namespace {

@@ -1,9 +1,9 @@
 // A ball that contains a displaced triangle, proven, for each surface.
 #pragma once
 
-#include "app/enclosing_ball.h"
-#include "app/shared.h"
-#include "app/surface_choice.h"
+#include "app/bake/enclosing_ball.h"
+#include "app/surface/shared.h"
+#include "app/surface/surface_choice.h"
 
 namespace trisect {
 

@@ -1,4 +1,4 @@
-#include "app/atomic_file.h"
+#include "app/base/atomic_file.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -10,7 +10,7 @@
 #include <string>
 #include <system_error>
 
-#include "app/error.h"
+#include "app/base/error.h"
 
 namespace trisect {
 

@@ -1,7 +1,9 @@
-// The errors a user can cause, each one clear sentence, and the exit codes they end in.
+// The errors that a user can cause, each one clear sentence. ExitCode: what the program ends with.
 #pragma once
 
 #include <stdexcept>
+
+#include "vk/error.h"
 
 namespace trisect {
 
@@ -26,10 +28,8 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The user pressed Ctrl-C.
-class Interrupted : public std::runtime_error {
- public:
-  Interrupted() : std::runtime_error("interrupted") {}
-};
+// A graphics device that is not there, or that cannot do what is asked of it: Vulkan's or OpenGL's.
+using DeviceError = gpu::Error;
+using NoDevice = gpu::NoDevice;
 
 }  // namespace trisect

@@ -1,4 +1,4 @@
-#include "app/parallel_rows.h"
+#include "app/base/parallel_rows.h"
 
 #include <algorithm>
 #include <atomic>
@@ -11,13 +11,14 @@
 
 namespace trisect {
 
-void parallel_rows(uint32_t height, const std::function<void(uint32_t)>& row,
-                   const std::function<void(uint32_t)>& progress) {
+bool parallel_rows(uint32_t height, const std::function<void(uint32_t)>& row,
+                   const Progress& progress) {
   std::atomic<uint32_t> next = 0;
   std::atomic<uint32_t> done = 0;
   std::mutex mutex;
   std::condition_variable ended;
   std::exception_ptr error;
+  bool stopped = false;
   unsigned running = std::max(std::thread::hardware_concurrency(), 1U);
   const auto stop_with = [&](const std::exception_ptr& reason) {
     const std::scoped_lock lock(mutex);
@@ -47,7 +48,10 @@ void parallel_rows(uint32_t height, const std::function<void(uint32_t)>& row,
       if (!progress || running == 0) continue;
       lock.unlock();
       try {
-        progress(done);
+        if (!progress(done)) {
+          stopped = true;
+          next = height;
+        }
       } catch (...) {
         stop_with(std::current_exception());
       }
@@ -56,7 +60,9 @@ void parallel_rows(uint32_t height, const std::function<void(uint32_t)>& row,
   }
   threads.clear();
   if (error) std::rethrow_exception(error);
-  if (progress) progress(height);
+  // A row that was begun when the caller said stop may have been the last.
+  if (done < height) return false;
+  return !stopped && (!progress || progress(height));
 }
 
 void parallel_chunks(std::size_t count, std::size_t size,

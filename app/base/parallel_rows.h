@@ -5,13 +5,16 @@
 #include <cstdint>
 #include <functional>
 
+#include "app/base/keep_going.h"
+
 namespace trisect {
 
 // Calls row(y) once for every y below `height`, on as many threads as there are cores, and
-// progress(rows done), if set, a few times a second and at the end on the calling thread. What
-// either throws stops the rest and is thrown here.
-void parallel_rows(uint32_t height, const std::function<void(uint32_t)>& row,
-                   const std::function<void(uint32_t)>& progress);
+// progress(rows done), if set, a few times a second and at the end on the calling thread. Returns
+// whether every row was done: not if progress said stop. What row or progress throws stops the rest
+// and is thrown here.
+bool parallel_rows(uint32_t height, const std::function<void(uint32_t)>& row,
+                   const Progress& progress);
 
 // Calls chunk(first, end) for consecutive ranges of `size` items of `count`, the last one shorter,
 // on as many threads as there are cores. What it throws stops the rest and is thrown here.

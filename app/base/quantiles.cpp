@@ -1,9 +1,8 @@
-#include "app/quantiles.h"
+#include "app/base/quantiles.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 namespace trisect {
 
@@ -12,10 +11,6 @@ Quantiles quantiles_of(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t last = values.size() - 1;
   return {values[last / 2], values[(last * 99 + 99) / 100], values[last]};
-}
-
-nlohmann::ordered_json json_of(const Quantiles& quantiles) {
-  return {{"p50", quantiles.p50}, {"p99", quantiles.p99}, {"max", quantiles.max}};
 }
 
 double ulp_of(float x) {

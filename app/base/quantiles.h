@@ -2,7 +2,6 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <nlohmann/json_fwd.hpp>
 #include <vector>
 
 namespace trisect {
@@ -15,9 +14,6 @@ struct Quantiles {
 };
 
 Quantiles quantiles_of(std::vector<double> values);
-
-// Its members under their names.
-nlohmann::ordered_json json_of(const Quantiles& quantiles);
 
 // Distance from |x| to the next larger single.
 double ulp_of(float x);

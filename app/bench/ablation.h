@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/bench/field.h"
-#include "app/options.h"
+#include "app/bench/options.h"
 #include "vk/device.h"
 
 namespace trisect::bench {

@@ -5,17 +5,18 @@
 #include <string>
 #include <vector>
 
+#include "app/base/error.h"
 #include "app/bench/ablation.h"
+#include "app/bench/commands.h"
 #include "app/bench/document.h"
 #include "app/bench/gnuplot.h"
 #include "app/bench/provenance.h"
 #include "app/bench/report_files.h"
-#include "app/commands.h"
-#include "app/error.h"
-#include "app/json_text.h"
-#include "app/mesh_builder.h"
-#include "app/obj_file.h"
-#include "app/pipeline_store.h"
+#include "app/cli/cache_folder.h"
+#include "app/cli/json_text.h"
+#include "app/dispatch/pipeline_store.h"
+#include "app/mesh/mesh_builder.h"
+#include "app/mesh/obj_file.h"
 
 namespace trisect {
 namespace {

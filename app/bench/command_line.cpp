@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "app/command_options.h"
-#include "app/commands.h"
+#include "app/bench/commands.h"
+#include "app/cli/command_options.h"
 
 namespace trisect::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "app/options.h"
+#include "app/bench/options.h"
 
 namespace trisect::bench {
 

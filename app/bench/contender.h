@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <memory>
 
-#include "app/bake.h"
+#include "app/bake/bake.h"
 #include "app/bench/tessellation.h"
-#include "app/frame.h"
-#include "app/kernel_choice.h"
-#include "app/shared.h"
+#include "app/buffers/kernel_choice.h"
+#include "app/frame/frame.h"
+#include "app/surface/shared.h"
 #include "vk/device.h"
 
 namespace trisect::bench {

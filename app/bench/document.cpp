@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "app/error.h"
+#include "app/base/error.h"
 
 namespace trisect::bench {
 namespace {

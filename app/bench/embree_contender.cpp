@@ -6,12 +6,12 @@
 #include <memory>
 #include <type_traits>
 
+#include "app/base/error.h"
+#include "app/base/parallel_rows.h"
+#include "app/base/stopwatch.h"
 #include "app/bench/contender.h"
-#include "app/error.h"
-#include "app/interrupt.h"
-#include "app/kernel_float.h"
-#include "app/parallel_rows.h"
-#include "app/stopwatch.h"
+#include "app/cli/interrupt.h"
+#include "app/dispatch/kernel_float.h"
 
 namespace trisect::bench {
 namespace {
@@ -86,7 +86,8 @@ class OnEmbree : public Contender {
                       }
                     }
                   },
-                  [](uint32_t) { stop_if_interrupted(); });
+                  [](uint32_t) { return not_interrupted(); });
+    stop_if_interrupted();
   }
 
   template <typename Item>

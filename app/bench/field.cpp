@@ -4,15 +4,15 @@
 
 #include <utility>
 
+#include "app/bake/bvh.h"
+#include "app/bake/cage.h"
 #include "app/bench/pareto_front.h"
-#include "app/bvh.h"
-#include "app/cage.h"
-#include "app/interrupt.h"
-#include "app/mesh_builder.h"
-#include "app/obj_file.h"
-#include "app/oracle_tracer.h"
-#include "app/progress.h"
-#include "app/trace_settings.h"
+#include "app/cli/interrupt.h"
+#include "app/cli/progress_line.h"
+#include "app/dispatch/trace_settings.h"
+#include "app/mesh/mesh_builder.h"
+#include "app/mesh/obj_file.h"
+#include "app/oracle/oracle_tracer.h"
 
 namespace trisect::bench {
 
@@ -31,8 +31,9 @@ View view_of(const std::string& model, const Mesh& mesh, const ImageSize& size,
   View view;
   view.scene = bake_with_cages(mesh, choice);
   view.params = params_of(mesh, view.scene, size, SOLVER_ROBUST, 10);
-  Progress progress(fmt::format("oracle, {}", model), size.height);
-  view.truth = trace_with_oracle(view.scene, view.params, [&](uint32_t y) { progress.show(y); });
+  ProgressLine progress(fmt::format("oracle, {}", model), size.height);
+  view.truth = finished(
+      trace_with_oracle(view.scene, view.params, [&](uint32_t y) { return progress.show(y); }));
   view.shown = frame_of(view.truth, view.scene, view.params);
   return view;
 }
@@ -71,7 +72,7 @@ void Field::inspect(const std::string& family, const std::string& number, Frame&
 }
 
 std::vector<Measurement> Field::measure(const std::string& model, uint32_t runs) {
-  Progress progress(fmt::format("measuring {}", model), entries_.size() * (runs + 2));
+  ProgressLine progress(fmt::format("measuring {}", model), entries_.size() * (runs + 2));
   uint64_t done = 0;
   Frame frame;
   for (Entry& entry : entries_) {

@@ -10,10 +10,10 @@
 
 #include "app/bench/contender.h"
 #include "app/bench/frame_errors.h"
-#include "app/mesh.h"
-#include "app/oracle.h"
-#include "app/statistics.h"
-#include "app/surface_choice.h"
+#include "app/cli/statistics.h"
+#include "app/mesh/mesh.h"
+#include "app/oracle/oracle.h"
+#include "app/surface/surface_choice.h"
 
 namespace trisect::bench {
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/accuracy.h"
-#include "app/frame_comparison.h"
+#include "app/accuracy/accuracy.h"
+#include "app/crosscheck/frame_comparison.h"
 
 namespace trisect::bench {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <cstddef>
 
-#include "app/bake.h"
-#include "app/frame.h"
-#include "app/oracle.h"
-#include "app/quantiles.h"
+#include "app/bake/bake.h"
+#include "app/base/quantiles.h"
+#include "app/frame/frame.h"
+#include "app/oracle/oracle.h"
 
 namespace trisect::bench {
 

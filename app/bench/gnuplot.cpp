@@ -11,7 +11,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "app/error.h"
+#include "app/base/error.h"
 
 namespace trisect::bench {
 namespace {

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "app/error.h"
+#include "app/base/error.h"
 
 namespace trisect::bench {
 

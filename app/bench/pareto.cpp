@@ -5,9 +5,9 @@
 #include <memory>
 #include <utility>
 
+#include "app/bake/cage.h"
 #include "app/bench/field.h"
-#include "app/cage.h"
-#include "app/progress.h"
+#include "app/cli/progress_line.h"
 
 namespace trisect::bench {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "app/bench/field.h"
-#include "app/frame.h"
-#include "app/options.h"
+#include "app/bench/options.h"
+#include "app/frame/frame.h"
 #include "vk/device.h"
 
 namespace trisect::bench {

@@ -6,7 +6,9 @@
 #include <thread>
 #include <vector>
 
-#include "app/atomic_file.h"
+#include "app/base/atomic_file.h"
+#include "app/base/error.h"
+#include "app/bench/commands.h"
 #include "app/bench/document.h"
 #include "app/bench/gnuplot.h"
 #include "app/bench/hard_case_table.h"
@@ -14,15 +16,14 @@
 #include "app/bench/pareto_report.h"
 #include "app/bench/provenance.h"
 #include "app/bench/report_files.h"
-#include "app/commands.h"
-#include "app/error.h"
-#include "app/frame_comparison.h"
-#include "app/image_file.h"
-#include "app/json_text.h"
-#include "app/mesh_builder.h"
-#include "app/obj_file.h"
+#include "app/cli/cache_folder.h"
+#include "app/cli/json_text.h"
+#include "app/crosscheck/frame_comparison.h"
+#include "app/dispatch/pipeline_store.h"
+#include "app/mesh/mesh_builder.h"
+#include "app/mesh/obj_file.h"
 #include "app/opengl/context.h"
-#include "app/pipeline_store.h"
+#include "app/picture/image_file.h"
 
 namespace trisect {
 namespace {

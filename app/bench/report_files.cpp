@@ -5,9 +5,9 @@
 #include <system_error>
 #include <utility>
 
-#include "app/atomic_file.h"
+#include "app/base/atomic_file.h"
+#include "app/base/error.h"
 #include "app/bench/gnuplot.h"
-#include "app/error.h"
 
 namespace trisect::bench {
 

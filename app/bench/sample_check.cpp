@@ -2,20 +2,21 @@
 
 #include <glm/glm.hpp>
 
-#include "app/oracle_tracer.h"
+#include "app/cli/interrupt.h"
+#include "app/oracle/oracle_tracer.h"
 
 namespace trisect::bench {
 
 SampleCheck::SampleCheck(const BakedScene& scene, const TraceParams& params, uint32_t step,
-                         const std::function<void(uint32_t)>& progress) {
+                         const Progress& progress) {
   const Oracle oracle(scene);
   const double motion = kMotion * static_cast<double>(params.anchor.w);
   const uint32_t columns = (params.width + step - 1) / step;
   const uint32_t rows = (params.height + step - 1) / step;
-  const OracleFrame grid = oracle_frame(
+  const OracleFrame grid = finished(oracle_frame(
       oracle, columns, rows,
       [&](uint32_t x, uint32_t y) { return oracle_pixel_ray(params, x * step, y * step).ray; },
-      [&](const OracleRay&) { return motion; }, progress);
+      [&](const OracleRay&) { return motion; }, progress));
   OracleFrame answers{params.width, params.height, {}};
   answers.pixels.resize(std::size_t{params.width} * params.height);
   for (uint32_t y = 0; y < rows; ++y) {

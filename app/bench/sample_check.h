@@ -2,21 +2,21 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 
-#include "app/bake.h"
-#include "app/frame.h"
-#include "app/oracle.h"
-#include "app/shared.h"
+#include "app/bake/bake.h"
+#include "app/base/keep_going.h"
+#include "app/frame/frame.h"
+#include "app/oracle/oracle.h"
+#include "app/surface/shared.h"
 
 namespace trisect::bench {
 
 class SampleCheck {
  public:
   // Asks the oracle about every `step`-th pixel of every `step`-th row. progress: as parallel_rows
-  // has it, of the frame's rows.
+  // has it, of the frame's rows; if it says stop Interrupted is thrown.
   SampleCheck(const BakedScene& scene, const TraceParams& params, uint32_t step,
-              const std::function<void(uint32_t)>& progress);
+              const Progress& progress);
 
   // Pixels that it knows: the decidable ones of the grid.
   [[nodiscard]] std::size_t pixels() const { return pixels_.size(); }

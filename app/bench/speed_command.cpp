@@ -7,22 +7,23 @@
 #include <utility>
 #include <vector>
 
-#include "app/atomic_file.h"
+#include "app/bake/bvh.h"
+#include "app/bake/cage.h"
+#include "app/base/atomic_file.h"
+#include "app/base/error.h"
+#include "app/base/stopwatch.h"
+#include "app/bench/commands.h"
 #include "app/bench/contender.h"
 #include "app/bench/sample_check.h"
-#include "app/bvh.h"
-#include "app/cage.h"
-#include "app/commands.h"
-#include "app/error.h"
-#include "app/interrupt.h"
-#include "app/json_text.h"
-#include "app/mesh_builder.h"
-#include "app/obj_file.h"
-#include "app/pipeline_store.h"
-#include "app/progress.h"
-#include "app/statistics.h"
-#include "app/stopwatch.h"
-#include "app/trace_settings.h"
+#include "app/cli/cache_folder.h"
+#include "app/cli/interrupt.h"
+#include "app/cli/json_text.h"
+#include "app/cli/progress_line.h"
+#include "app/cli/statistics.h"
+#include "app/dispatch/pipeline_store.h"
+#include "app/dispatch/trace_settings.h"
+#include "app/mesh/mesh_builder.h"
+#include "app/mesh/obj_file.h"
 
 namespace trisect {
 namespace {
@@ -52,9 +53,9 @@ auto timed(double& ms, Make&& make) {
 }
 
 SampleCheck checked(const std::string& model, const BakedScene& scene, const TraceParams& params) {
-  Progress progress(fmt::format("oracle, {}", model),
-                    (params.height + kCheckStep - 1) / kCheckStep);
-  return {scene, params, kCheckStep, [&](uint32_t rows) { progress.show(rows); }};
+  ProgressLine progress(fmt::format("oracle, {}", model),
+                        (params.height + kCheckStep - 1) / kCheckStep);
+  return {scene, params, kCheckStep, [&](uint32_t rows) { return progress.show(rows); }};
 }
 
 // All contenders on one model with one surface.

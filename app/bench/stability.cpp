@@ -7,15 +7,15 @@
 #include <random>
 #include <utility>
 
-#include "app/bake.h"
-#include "app/cage.h"
-#include "app/cpu_tracer.h"
-#include "app/hard_judge.h"
-#include "app/hard_scenes.h"
-#include "app/interrupt.h"
-#include "app/oracle.h"
-#include "app/progress.h"
-#include "app/trace_settings.h"
+#include "app/bake/bake.h"
+#include "app/bake/cage.h"
+#include "app/cli/interrupt.h"
+#include "app/cli/progress_line.h"
+#include "app/dispatch/cpu_tracer.h"
+#include "app/dispatch/trace_settings.h"
+#include "app/oracle/oracle.h"
+#include "app/stress/hard_judge.h"
+#include "app/stress/hard_scenes.h"
 
 namespace trisect::bench {
 namespace {
@@ -146,7 +146,7 @@ std::vector<StabilityAxis> measure_stability(uint32_t rays) {
   const std::vector<Axis> all = axes();
   uint64_t points = 0;
   for (const Axis& axis : all) points += axis.values.size() * std::size(kSolvers);
-  Progress progress("measuring stability", points);
+  ProgressLine progress("measuring stability", points);
   uint64_t done = 0;
   for (const Axis& axis : all) {
     StabilityAxis result{axis.name, axis.what, axis.logarithmic, {}};

@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "app/base/error.h"
+#include "app/bench/commands.h"
 #include "app/bench/document.h"
 #include "app/bench/gnuplot.h"
 #include "app/bench/provenance.h"
 #include "app/bench/report_files.h"
 #include "app/bench/stability.h"
-#include "app/commands.h"
-#include "app/error.h"
-#include "app/json_text.h"
+#include "app/cli/json_text.h"
 
 namespace trisect {
 namespace {

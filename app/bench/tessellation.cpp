@@ -5,9 +5,9 @@
 #include <cmath>
 #include <mutex>
 
-#include "app/parallel_rows.h"
-#include "app/surface_double.h"
-#include "app/widen.h"
+#include "app/base/parallel_rows.h"
+#include "app/surface/surface_double.h"
+#include "app/surface/widen.h"
 
 namespace trisect::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "app/bake.h"
+#include "app/bake/bake.h"
 
 namespace trisect::bench {
 

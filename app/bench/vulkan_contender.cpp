@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "app/bench/contender.h"
-#include "app/interrupt.h"
-#include "app/kernels.h"
-#include "app/vulkan_tracer.h"
-#include "app/workgroups.h"
+#include "app/buffers/kernels.h"
+#include "app/cli/interrupt.h"
+#include "app/dispatch/vulkan_tracer.h"
+#include "app/dispatch/workgroups.h"
 #include "vk/commands.h"
 
 namespace trisect::bench {
@@ -86,11 +86,12 @@ class OnVulkan : public Contender {
       : kernels_(std::move(kernels)), params_(params) {}
 
   double render(Frame& frame) override {
-    return kernels_->tracer(false, params_).render(params_, frame, stop_if_interrupted).gpu_ms;
+    return finished(kernels_->tracer(false, params_).render(params_, frame, not_interrupted))
+        .gpu_ms;
   }
 
   void inspect(Frame& frame) override {
-    kernels_->tracer(true, params_).render(params_, frame, stop_if_interrupted);
+    finished(kernels_->tracer(true, params_).render(params_, frame, not_interrupted));
   }
 
   [[nodiscard]] std::size_t bytes() const override {

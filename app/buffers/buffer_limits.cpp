@@ -1,10 +1,9 @@
-#include "app/buffer_limits.h"
+#include "app/buffers/buffer_limits.h"
 
 #include <fmt/format.h>
+#include "app/base/error.h"
 
 #include <algorithm>
-
-#include "vk/result.h"
 
 namespace trisect {
 namespace {
@@ -14,8 +13,8 @@ std::size_t bytes_of(const std::string& device, std::size_t limit, const std::ve
                      const char* take) {
   const std::size_t bytes = std::max<std::size_t>(items.size(), 1) * sizeof(T);
   if (bytes > limit) {
-    throw gpu::Error(fmt::format("device {} has storage buffers of at most {} bytes; {} {}.",
-                                 device, limit, take, bytes));
+    throw DeviceError(fmt::format("device {} has storage buffers of at most {} bytes; {} {}.",
+                                  device, limit, take, bytes));
   }
   return bytes;
 }
@@ -25,7 +24,7 @@ std::size_t bytes_of(const std::string& device, std::size_t limit, const std::ve
 std::size_t triangle_bytes(const std::string& device, std::size_t limit, const BakedScene& scene) {
   const std::size_t bytes = scene.triangles.size() * sizeof(Triangle);
   if (bytes > limit) {
-    throw gpu::Error(
+    throw DeviceError(
         fmt::format("device {} has storage buffers of at most {} bytes, which hold {} triangles; "
                     "the model has {}.",
                     device, limit, limit / sizeof(Triangle), scene.triangles.size()));
@@ -46,8 +45,8 @@ uint32_t rows_in_a_band(const std::string& device, std::size_t limit, uint32_t w
   const std::size_t row = std::size_t{width} * (aovs ? sizeof(PixelAovs) : sizeof(vec4));
   const std::size_t fit = limit / row / TILE_SIZE * TILE_SIZE;
   if (fit == 0) {
-    throw gpu::Error(fmt::format("device {} cannot hold {} rows of {} pixels in one buffer.",
-                                 device, TILE_SIZE, width));
+    throw DeviceError(fmt::format("device {} cannot hold {} rows of {} pixels in one buffer.",
+                                  device, TILE_SIZE, width));
   }
   return static_cast<uint32_t>(std::min<std::size_t>(fit, height));
 }

@@ -6,13 +6,14 @@
 #include <limits>
 #include <string>
 
-#include "app/bake.h"
+#include "app/bake/bake.h"
+#include "app/base/error.h"
 
 namespace trisect {
 
 inline constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 
-// All of them throw gpu::Error, naming the device, if a buffer of `limit` bytes is too small.
+// All of them throw DeviceError, naming the device, if a buffer of `limit` bytes is too small.
 
 std::size_t triangle_bytes(const std::string& device, std::size_t limit, const BakedScene& scene);
 

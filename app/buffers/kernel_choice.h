@@ -1,7 +1,7 @@
 // What a kernel does beside what the scene says; what it need not do is not compiled in.
 #pragma once
 
-#include "app/shared.h"
+#include "app/surface/shared.h"
 
 namespace trisect {
 
@@ -12,6 +12,23 @@ enum class Accel {
   bvh,       // those in whose boxes it comes: robust solver, needs the scene's bvh
   rayquery,  // the same by the device's own structure over the boxes, if it has ray queries
 };
+
+// As the command line and the JSON name them.
+constexpr const char* solver_name(uint solver) {
+  return solver == SOLVER_BISECT ? "bisect" : "robust";
+}
+constexpr const char* accel_name(Accel accel) {
+  switch (accel) {
+    case Accel::tiles:
+      return "tiles";
+    case Accel::bvh:
+      return "bvh";
+    case Accel::rayquery:
+      return "rayquery";
+    default:
+      return "list";
+  }
+}
 
 struct KernelChoice {
   uint solver = SOLVER_ROBUST;  // needs the scene's cages

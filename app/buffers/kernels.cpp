@@ -1,4 +1,4 @@
-#include "app/kernels.h"
+#include "app/buffers/kernels.h"
 
 #include <array>
 

@@ -1,11 +1,11 @@
-#include "app/scene_buffers.h"
+#include "app/buffers/scene_buffers.h"
 
 #include <algorithm>
 #include <cstring>
 #include <span>
 
-#include "app/buffer_limits.h"
-#include "app/part_boxes.h"
+#include "app/bake/part_boxes.h"
+#include "app/buffers/buffer_limits.h"
 
 namespace trisect {
 namespace {

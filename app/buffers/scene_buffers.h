@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "app/bake.h"
+#include "app/bake/bake.h"
 #include "vk/box_structure.h"
 #include "vk/buffer.h"
 #include "vk/commands.h"
@@ -21,7 +21,7 @@ class SceneBuffers {
     always,
   };
 
-  // Throws gpu::Error, naming the device, if it cannot hold the scene.
+  // Throws DeviceError, naming the device, if it cannot hold the scene.
   SceneBuffers(const gpu::Device& device, const BakedScene& scene, std::size_t limit,
                ByAddress by_address);
 

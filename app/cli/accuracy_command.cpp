@@ -5,20 +5,21 @@
 #include <string>
 #include <vector>
 
-#include "app/accuracy.h"
-#include "app/atomic_file.h"
-#include "app/cage.h"
-#include "app/commands.h"
-#include "app/cpu_tracer.h"
-#include "app/error.h"
-#include "app/interrupt.h"
-#include "app/json_text.h"
-#include "app/mesh_builder.h"
-#include "app/oracle_tracer.h"
-#include "app/pipeline_store.h"
-#include "app/progress.h"
-#include "app/trace_settings.h"
-#include "app/vulkan_tracer.h"
+#include "app/accuracy/accuracy.h"
+#include "app/bake/cage.h"
+#include "app/base/atomic_file.h"
+#include "app/base/error.h"
+#include "app/cli/cache_folder.h"
+#include "app/cli/commands.h"
+#include "app/cli/interrupt.h"
+#include "app/cli/json_text.h"
+#include "app/cli/progress_line.h"
+#include "app/dispatch/cpu_tracer.h"
+#include "app/dispatch/pipeline_store.h"
+#include "app/dispatch/trace_settings.h"
+#include "app/dispatch/vulkan_tracer.h"
+#include "app/mesh/mesh_builder.h"
+#include "app/oracle/oracle_tracer.h"
 
 namespace trisect {
 namespace {
@@ -67,11 +68,12 @@ Row measure(const gpu::Device& device, const BakedScene& scene, const TraceSetti
   const KernelChoice choice{settings.solver, true, true};
   VulkanTracer tracer(device, scene, settings.width, settings.height, choice);
   Frame frame;
-  tracer.render(params, frame, stop_if_interrupted);  // the warm-up
-  row.gpu_ms = tracer.render(params, frame, stop_if_interrupted).gpu_ms;
+  finished(tracer.render(params, frame, not_interrupted));  // the warm-up
+  row.gpu_ms = finished(tracer.render(params, frame, not_interrupted)).gpu_ms;
   row.accuracy = accuracy_of(frame, truth, scene, params);
   Frame on_cpu;
-  trace_on_cpu(scene, params, choice, on_cpu, [](uint32_t) { stop_if_interrupted(); });
+  trace_on_cpu(scene, params, choice, on_cpu, [](uint32_t) { return not_interrupted(); });
+  stop_if_interrupted();
   row.cpu_differs = count_differences(frame, on_cpu);
   return row;
 }
@@ -84,9 +86,9 @@ std::vector<Row> measure_model(const gpu::Device& device, const AccuracyOptions&
     for (const uint shell : options.shells) {
       const BakedScene scene = bake_with_cages(mesh, {surface, options.alpha, shell});
       TraceSettings settings = framed_settings(mesh, scene, options.width, options.height);
-      Progress progress(fmt::format("oracle, {}", model), options.height);
-      const OracleFrame truth = trace_with_oracle(scene, make_params(scene, settings),
-                                                  [&](uint32_t y) { progress.show(y); });
+      ProgressLine progress(fmt::format("oracle, {}", model), options.height);
+      const OracleFrame truth = finished(trace_with_oracle(
+          scene, make_params(scene, settings), [&](uint32_t y) { return progress.show(y); }));
       for (const uint solver : {SOLVER_ROBUST, SOLVER_BISECT}) {
         settings.solver = solver;
         rows.push_back(measure(device, scene, settings, truth));

@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "app/shared.h"
+#include "app/surface/shared.h"
 
 namespace trisect {
 

@@ -1,9 +1,9 @@
 #include <nlohmann/json.hpp>
 
-#include "app/commands.h"
-#include "app/comparison_report.h"
-#include "app/error.h"
-#include "app/image_reader.h"
+#include "app/base/error.h"
+#include "app/cli/commands.h"
+#include "app/cli/comparison_report.h"
+#include "app/picture/image_reader.h"
 
 namespace trisect {
 

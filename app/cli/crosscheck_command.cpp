@@ -4,12 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "app/accel.h"
-#include "app/commands.h"
-#include "app/comparison_report.h"
-#include "app/error.h"
-#include "app/load_scene.h"
-#include "app/trace_scene.h"
+#include "app/base/error.h"
+#include "app/cli/cache_folder.h"
+#include "app/cli/commands.h"
+#include "app/cli/comparison_report.h"
+#include "app/cli/load_scene.h"
+#include "app/dispatch/accel.h"
+#include "app/dispatch/pipeline_store.h"
+#include "app/trace/trace_scene.h"
 
 namespace trisect {
 
@@ -30,11 +32,11 @@ int crosscheck(const CrosscheckOptions& options) {
   LoadedScene loaded = load_scene(render);
   std::vector<TraceResult> results;
   for (const Backend backend : options.backends) {
-    const Accel accel = chosen_accel(render, backend, loaded.scene.cages.size());
-    if (goes_by_bvh(render, accel)) add_bvh(loaded);
-    results.push_back(trace_scene({backend, render.gl_path, render.device, false, 1, false},
-                                  loaded.scene, loaded.params,
-                                  {render.solver, true, false, accel, render.shadows}));
+    const Accel accel = chosen_accel(accel_request(render), backend, loaded.scene.cages.size());
+    if (needs_bvh(accel, render.shadows)) add_bvh(loaded);
+    results.push_back(trace_showing_progress(
+        {backend, render.gl_path, render.device, false, 1, false, cache_folder()}, loaded.scene,
+        loaded.params, {render.solver, true, false, accel, render.shadows}));
     const std::string path = backend != Backend::opengl           ? ""
                              : render.gl_path == GlPath::fragment ? " (fragment)"
                                                                   : " (compute)";

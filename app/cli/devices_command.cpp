@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "app/commands.h"
-#include "app/error.h"
+#include "app/base/error.h"
+#include "app/cli/commands.h"
 #include "vk/instance.h"
 
 namespace trisect {

@@ -4,14 +4,15 @@
 #include <optional>
 #include <utility>
 
-#include "app/atomic_file.h"
-#include "app/commands.h"
-#include "app/error.h"
-#include "app/hard_backend.h"
-#include "app/hard_judge.h"
-#include "app/interrupt.h"
-#include "app/json_text.h"
-#include "app/pipeline_store.h"
+#include "app/base/atomic_file.h"
+#include "app/base/error.h"
+#include "app/cli/cache_folder.h"
+#include "app/cli/commands.h"
+#include "app/cli/interrupt.h"
+#include "app/cli/json_text.h"
+#include "app/dispatch/pipeline_store.h"
+#include "app/stress/hard_backend.h"
+#include "app/stress/hard_judge.h"
 
 namespace trisect {
 namespace {

@@ -1,8 +1,6 @@
-#include "app/interrupt.h"
+#include "app/cli/interrupt.h"
 
 #include <csignal>
-
-#include "app/error.h"
 
 namespace trisect {
 namespace {
@@ -27,8 +25,12 @@ void catch_interrupts() {
   }
 }
 
+bool not_interrupted() {
+  return signalled == 0;
+}
+
 void stop_if_interrupted() {
-  if (signalled != 0) throw Interrupted();
+  if (!not_interrupted()) throw Interrupted();
 }
 
 }  // namespace trisect

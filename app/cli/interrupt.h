@@ -1,12 +1,32 @@
 // Ctrl-C and termination, noticed between two steps so that nothing is left half done.
 #pragma once
 
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
 namespace trisect {
+
+// The user pressed Ctrl-C: the program ends.
+class Interrupted : public std::runtime_error {
+ public:
+  Interrupted() : std::runtime_error("interrupted") {}
+};
 
 // From now on the first SIGINT or SIGTERM is remembered; the second ends the program at once.
 void catch_interrupts();
 
+// Whether no signal has come: what long steps of the library ask.
+bool not_interrupted();
+
 // Throws Interrupted if a signal has come.
 void stop_if_interrupted();
+
+// The result of a step that asked not_interrupted(). Throws Interrupted if there is none.
+template <typename Result>
+Result finished(std::optional<Result> result) {
+  if (!result) throw Interrupted();
+  return *std::move(result);
+}
 
 }  // namespace trisect

@@ -1,17 +1,17 @@
-#include "app/load_scene.h"
+#include "app/cli/load_scene.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "app/bvh.h"
-#include "app/cage.h"
-#include "app/error.h"
-#include "app/interrupt.h"
-#include "app/mesh_builder.h"
-#include "app/progress.h"
-#include "app/stopwatch.h"
-#include "app/supersampling.h"
+#include "app/bake/bvh.h"
+#include "app/bake/cage.h"
+#include "app/base/error.h"
+#include "app/base/stopwatch.h"
+#include "app/cli/interrupt.h"
+#include "app/cli/progress_line.h"
+#include "app/frame/supersampling.h"
+#include "app/mesh/mesh_builder.h"
 
 namespace trisect {
 namespace {
@@ -28,6 +28,12 @@ auto timed(const std::string& name, double& ms, Step&& step) {
 }
 
 }  // namespace
+
+AccelRequest accel_request(const RenderOptions& options) {
+  const uint32_t side = samples_across(options.spp);
+  return {options.accel, options.solver, options.shadows, options.width * side,
+          options.height * side};
+}
 
 TraceSettings settings_of(const RenderOptions& options, const Mesh& mesh, const BakedScene& scene) {
   TraceSettings settings;
@@ -61,6 +67,16 @@ LoadedScene load_scene(const RenderOptions& options) {
   });
   loaded.params = make_params(loaded.scene, settings_of(options, built.mesh, loaded.scene));
   return loaded;
+}
+
+TraceResult trace_showing_progress(const TraceRequest& request, const BakedScene& scene,
+                                   const TraceParams& params, const KernelChoice& choice) {
+  constexpr double steps = 1000.0;
+  ProgressLine line("rendering", static_cast<uint64_t>(steps));
+  return finished(trace_scene(request, scene, params, choice, [&](double done) {
+    // A device does not say how far it is.
+    return done > 0.0 ? line.show(static_cast<uint64_t>(done * steps)) : not_interrupted();
+  }));
 }
 
 void add_bvh(LoadedScene& loaded) {

@@ -3,11 +3,16 @@
 
 #include <optional>
 
-#include "app/bake.h"
-#include "app/options.h"
-#include "app/trace_settings.h"
+#include "app/bake/bake.h"
+#include "app/cli/options.h"
+#include "app/dispatch/accel.h"
+#include "app/dispatch/trace_settings.h"
+#include "app/trace/trace_scene.h"
 
 namespace trisect {
+
+// What decides how the image is traced.
+AccelRequest accel_request(const RenderOptions& options);
 
 // Throws UsageError if the image has too many rays a side.
 TraceSettings settings_of(const RenderOptions& options, const Mesh& mesh, const BakedScene& scene);
@@ -22,6 +27,11 @@ struct LoadedScene {
 
 // Reads, bakes and frames the model, and prints a line about it. Throws InputError or UsageError.
 LoadedScene load_scene(const RenderOptions& options);
+
+// trace_scene, with a line on the terminal that says how far it is. Throws Interrupted if the user
+// stops it.
+TraceResult trace_showing_progress(const TraceRequest& request, const BakedScene& scene,
+                                   const TraceParams& params, const KernelChoice& choice);
 
 // Builds the tree over the scene's parts.
 void add_bvh(LoadedScene& loaded);

@@ -1,4 +1,4 @@
-#include "app/options.h"
+#include "app/cli/options.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "app/error.h"
+#include "app/base/error.h"
 
 namespace trisect {
 namespace {
@@ -31,32 +31,6 @@ bool take_character(std::string_view& text, char c) {
 constexpr Backend kBackends[] = {Backend::vulkan, Backend::opengl, Backend::cpu, Backend::oracle};
 
 }  // namespace
-
-const char* surface_name(uint surface) {
-  return surface == SURFACE_FLAT ? "flat" : surface == SURFACE_PHONG ? "phong" : "sphere";
-}
-
-const char* shell_name(uint shell) {
-  return shell == SHELL_HEIGHT ? "height" : "normal";
-}
-
-const char* solver_name(uint solver) {
-  return solver == SOLVER_BISECT ? "bisect" : "robust";
-}
-
-const char* backend_name(Backend backend) {
-  switch (backend) {
-    case Backend::vulkan:
-      return "vulkan";
-    case Backend::opengl:
-      return "opengl";
-    case Backend::cpu:
-      return "cpu";
-    case Backend::oracle:
-      return "oracle";
-  }
-  return "";
-}
 
 void parse_size(const std::string& option, const std::string& text, uint32_t& width,
                 uint32_t& height) {

@@ -7,15 +7,17 @@
 #include <system_error>
 #include <utility>
 
-#include "app/accel.h"
-#include "app/atomic_file.h"
-#include "app/commands.h"
-#include "app/error.h"
-#include "app/image_file.h"
-#include "app/load_scene.h"
-#include "app/statistics.h"
-#include "app/supersampling.h"
-#include "app/trace_scene.h"
+#include "app/base/atomic_file.h"
+#include "app/base/error.h"
+#include "app/cli/cache_folder.h"
+#include "app/cli/commands.h"
+#include "app/cli/load_scene.h"
+#include "app/cli/statistics.h"
+#include "app/dispatch/accel.h"
+#include "app/dispatch/pipeline_store.h"
+#include "app/frame/supersampling.h"
+#include "app/picture/image_file.h"
+#include "app/trace/trace_scene.h"
 
 namespace trisect {
 namespace {
@@ -43,16 +45,18 @@ int render(const RenderOptions& options) {
   const ImageFormat format = image_format(options.output);
   expect_distinct(options);
   LoadedScene loaded = load_scene(options);
-  const Accel accel = chosen_accel(options, options.backend, loaded.scene.cages.size());
-  if (goes_by_bvh(options, accel)) add_bvh(loaded);
+  const Accel accel =
+      chosen_accel(accel_request(options), options.backend, loaded.scene.cages.size());
+  if (needs_bvh(accel, options.shadows)) add_bvh(loaded);
 
   AtomicFile image(options.output);
   std::optional<AtomicFile> stats;
   if (!options.stats.empty()) stats.emplace(options.stats);
 
   const bool aovs = format == ImageFormat::exr || options.evals;
-  TraceResult traced = trace_scene(
-      {options.backend, options.gl_path, options.device, options.validation, options.runs, true},
+  TraceResult traced = trace_showing_progress(
+      {options.backend, options.gl_path, options.device, options.validation, options.runs, true,
+       cache_folder()},
       loaded.scene, loaded.params, {options.solver, aovs, options.evals, accel, options.shadows});
   traced.frame = averaged(std::move(traced.frame), samples_across(options.spp));
   RenderStatistics statistics;

@@ -1,8 +1,8 @@
-#include "app/scene_options.h"
+#include "app/cli/scene_options.h"
 
-#include "app/accel.h"
-#include "app/command_options.h"
-#include "app/error.h"
+#include "app/base/error.h"
+#include "app/cli/command_options.h"
+#include "app/dispatch/accel.h"
 
 namespace trisect {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "app/options.h"
+#include "app/cli/options.h"
 
 namespace trisect {
 

@@ -1,12 +1,12 @@
-#include "app/statistics.h"
+#include "app/cli/statistics.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/accel.h"
-#include "app/json_text.h"
+#include "app/cli/json_text.h"
+#include "app/dispatch/accel.h"
 
 namespace trisect {
 namespace {

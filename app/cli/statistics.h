@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "app/bake.h"
-#include "app/frame.h"
-#include "app/frame_time.h"
-#include "app/options.h"
+#include "app/bake/bake.h"
+#include "app/cli/options.h"
+#include "app/frame/frame.h"
+#include "app/frame/frame_time.h"
 
 namespace trisect {
 

@@ -1,13 +1,12 @@
-#include "app/frame_comparison.h"
+#include "app/crosscheck/frame_comparison.h"
 
 #include <fmt/format.h>
 
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
-#include "app/error.h"
+#include "app/base/error.h"
 
 namespace trisect {
 namespace {
@@ -147,23 +146,6 @@ std::string to_text(const FrameComparison& c) {
          fmt::format("\n  colour RMSE {:.3g} and largest difference {:.3g} of 255, PSNR {} dB\n",
                      c.color_rmse, c.color_max,
                      std::isinf(c.psnr) ? "infinite" : fmt::format("{:.1f}", c.psnr));
-}
-
-nlohmann::ordered_json to_json(const FrameComparison& c) {
-  nlohmann::ordered_json json{
-      {"pixels", c.pixels}, {"hits", c.hits}, {"hit_mismatches", c.hit_mismatches}};
-  if (c.depth) {
-    json["patch_mismatches"] = c.depth->patch_mismatches;
-    json["z_pixels"] = c.depth->pixels;
-    json["z_bit_equal"] = c.depth->bit_equal;
-    json["z_ulp"] = json_of(c.depth->ulp);
-    json["normal_degrees"] = json_of(c.depth->normal_degrees);
-  }
-  json["color_rmse"] = c.color_rmse;
-  json["color_max"] = c.color_max;
-  // JSON knows no infinity: null.
-  json["psnr"] = c.psnr;
-  return json;
 }
 
 Frame comparison_picture(const Frame& a, const Frame& b) {

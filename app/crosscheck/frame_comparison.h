@@ -2,14 +2,13 @@
 #pragma once
 
 #include <cstddef>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "app/frame.h"
-#include "app/quantiles.h"
-#include "app/tolerance.h"
+#include "app/base/quantiles.h"
+#include "app/crosscheck/tolerance.h"
+#include "app/frame/frame.h"
 
 namespace trisect {
 
@@ -38,9 +37,8 @@ FrameComparison compare(const Frame& a, const Frame& b);
 // What exceeds the tolerance, a phrase each.
 std::vector<std::string> excesses(const FrameComparison& comparison, const Tolerance& tolerance);
 
-// The figures, for a person and for programs.
+// The figures, for a person.
 std::string to_text(const FrameComparison& comparison);
-nlohmann::ordered_json to_json(const FrameComparison& comparison);
 
 // Four pictures in one: a, b, the difference of their colours, amplified so that the largest is
 // white, and a mask: red where only one hits, yellow where they hit different triangles, blue where

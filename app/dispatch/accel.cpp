@@ -1,10 +1,9 @@
-#include "app/accel.h"
+#include "app/dispatch/accel.h"
 
 #include <fmt/format.h>
 
-#include "app/error.h"
-#include "app/supersampling.h"
-#include "app/workgroups.h"
+#include "app/base/error.h"
+#include "app/dispatch/workgroups.h"
 
 namespace trisect {
 namespace {
@@ -18,49 +17,34 @@ constexpr std::size_t kPartsOfTile = 4;
 
 }  // namespace
 
-const char* accel_name(Accel accel) {
-  switch (accel) {
-    case Accel::tiles:
-      return "tiles";
-    case Accel::bvh:
-      return "bvh";
-    case Accel::rayquery:
-      return "rayquery";
-    default:
-      return "list";
-  }
-}
-
-Accel chosen_accel(const RenderOptions& options, Backend backend, std::size_t parts) {
-  const bool any = backend == Backend::vulkan && options.solver == SOLVER_ROBUST;
+Accel chosen_accel(const AccelRequest& request, Backend backend, std::size_t parts) {
+  const bool any = backend == Backend::vulkan && request.solver == SOLVER_ROBUST;
   const bool tiles = parts <= kMostParts;
-  if (!options.accel) {
+  if (!request.accel) {
     if (!any) return Accel::list;
-    const uint32_t side = samples_across(options.spp);
     const std::size_t tiles_of_image =
-        std::size_t{tiles_across(options.width * side)} * tiles_across(options.height * side);
+        std::size_t{tiles_across(request.width)} * tiles_across(request.height);
     return tiles && parts <= kPartsOfTile * tiles_of_image ? Accel::tiles : Accel::bvh;
   }
-  if (*options.accel != Accel::list && !any) {
+  if (*request.accel != Accel::list && !any) {
     throw UsageError(fmt::format("--accel {}: it needs --backend vulkan and --solver robust.",
-                                 accel_name(*options.accel)));
+                                 accel_name(*request.accel)));
   }
-  if (*options.accel == Accel::tiles && !tiles) {
+  if (*request.accel == Accel::tiles && !tiles) {
     throw UsageError(
         fmt::format("--accel tiles: the patches have {} parts, more than the {} that it takes.",
                     parts, kMostParts));
   }
-  return *options.accel;
+  return *request.accel;
 }
 
-bool goes_by_bvh(const RenderOptions& options, Accel accel) {
-  return accel == Accel::bvh || accel == Accel::rayquery ||
-         (options.shadows && accel == Accel::tiles);
+bool needs_bvh(Accel accel, bool shadows) {
+  return accel == Accel::bvh || accel == Accel::rayquery || (shadows && accel == Accel::tiles);
 }
 
-Accel accel_at_hand(const RenderOptions& options, const BakedScene& scene) {
-  const Accel accel = chosen_accel(options, Backend::vulkan, scene.cages.size());
-  return goes_by_bvh(options, accel) && scene.bvh.empty() ? Accel::list : accel;
+Accel accel_at_hand(const AccelRequest& request, const BakedScene& scene) {
+  const Accel accel = chosen_accel(request, Backend::vulkan, scene.cages.size());
+  return needs_bvh(accel, request.shadows) && scene.bvh.empty() ? Accel::list : accel;
 }
 
 }  // namespace trisect

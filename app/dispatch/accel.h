@@ -2,25 +2,34 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 
-#include "app/bake.h"
-#include "app/kernel_choice.h"
-#include "app/options.h"
+#include "app/bake/bake.h"
+#include "app/buffers/kernel_choice.h"
+#include "app/dispatch/backend.h"
 
 namespace trisect {
 
-const char* accel_name(Accel accel);
+// What decides which one.
+struct AccelRequest {
+  std::optional<Accel> accel;  // chosen by the program if empty
+  uint solver = SOLVER_ROBUST;
+  bool shadows = false;
+  uint32_t width = 800;  // rays in a row and in a column of the image
+  uint32_t height = 600;
+};
 
-// What the options ask for, or, if they leave it open, what is likely to be the fastest for a scene
-// of so many parts: tiles, or the tree if the scene has more than three parts for each tile of the
+// The one asked for, or, if that is left open, the one that is likely to be the fastest for a scene
+// of so many parts: tiles, or the tree if the scene has more than four parts for each tile of the
 // image, wherever they can be had. Throws UsageError if what is asked for cannot be.
-Accel chosen_accel(const RenderOptions& options, Backend backend, std::size_t parts);
+Accel chosen_accel(const AccelRequest& request, Backend backend, std::size_t parts);
 
-// Whether rays go by the scene's bvh: those of a camera, or those of shadows beside tiles.
-bool goes_by_bvh(const RenderOptions& options, Accel accel);
+// Whether rays need the scene's bvh: those of a camera, or those of shadows beside tiles.
+bool needs_bvh(Accel accel, bool shadows);
 
-// The way that Vulkan goes with this scene as it is: chosen_accel's, or the list if that would need
-// a tree which the scene does not have. Both make the same picture.
-Accel accel_at_hand(const RenderOptions& options, const BakedScene& scene);
+// Vulkan's for this scene as it is: chosen_accel's, or the list if that would need a tree which the
+// scene does not have. Both make the same picture.
+Accel accel_at_hand(const AccelRequest& request, const BakedScene& scene);
 
 }  // namespace trisect

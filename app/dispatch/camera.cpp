@@ -1,10 +1,10 @@
-#include "app/camera.h"
+#include "app/dispatch/camera.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "app/error.h"
+#include "app/base/error.h"
 
 namespace trisect {
 

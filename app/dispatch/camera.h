@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <span>
 
-#include "app/shared.h"
+#include "app/surface/shared.h"
 
 namespace trisect {
 

@@ -1,10 +1,10 @@
-#include "app/cpu_tracer.h"
+#include "app/dispatch/cpu_tracer.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "app/kernel_float.h"
-#include "app/parallel_rows.h"
+#include "app/base/parallel_rows.h"
+#include "app/dispatch/kernel_float.h"
 
 namespace trisect {
 namespace {
@@ -32,8 +32,8 @@ void cast_shadow(Kernel& kernel, const glm::vec3& view, PixelAovs& met, vec4& co
 
 }  // namespace
 
-void trace_on_cpu(const BakedScene& scene, const TraceParams& params, const KernelChoice& choice,
-                  Frame& frame, const std::function<void(uint32_t)>& between_rows) {
+bool trace_on_cpu(const BakedScene& scene, const TraceParams& params, const KernelChoice& choice,
+                  Frame& frame, const Progress& progress) {
   frame.resize(params.width, params.height, choice.aovs);
   const Kernel shared = in_float::kernel_of(scene, params, choice);
   const auto row = [&](uint32_t y) {
@@ -51,7 +51,7 @@ void trace_on_cpu(const BakedScene& scene, const TraceParams& params, const Kern
       if (choice.aovs) frame.aovs[pixel] = aovs;
     }
   };
-  parallel_rows(params.height, row, between_rows);
+  return parallel_rows(params.height, row, progress);
 }
 
 std::vector<CastHit> cast_on_cpu(const BakedScene& scene, const TraceParams& params, uint solver,

@@ -1,21 +1,21 @@
 // The CPU back end: the kernel's own source in C++, single precision, one thread a core.
 #pragma once
 
-#include <functional>
 #include <span>
 #include <vector>
 
-#include "app/bake.h"
-#include "app/frame.h"
-#include "app/kernel_choice.h"
-#include "app/shared.h"
+#include "app/bake/bake.h"
+#include "app/base/keep_going.h"
+#include "app/buffers/kernel_choice.h"
+#include "app/frame/frame.h"
+#include "app/surface/shared.h"
 
 namespace trisect {
 
-// Renders into `frame`. between_rows, if set, is called on the calling thread a few times a second
-// with the rows that are done; what it throws stops the frame.
-void trace_on_cpu(const BakedScene& scene, const TraceParams& params, const KernelChoice& choice,
-                  Frame& frame, const std::function<void(uint32_t)>& between_rows = {});
+// Renders into `frame`. progress: as parallel_rows has it, of rows; false: it stopped the frame,
+// some of which is not written.
+bool trace_on_cpu(const BakedScene& scene, const TraceParams& params, const KernelChoice& choice,
+                  Frame& frame, const Progress& progress = {});
 
 // One hit for each ray, as RayCaster casts them.
 std::vector<CastHit> cast_on_cpu(const BakedScene& scene, const TraceParams& params, uint solver,

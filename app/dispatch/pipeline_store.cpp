@@ -1,16 +1,14 @@
-#include "app/pipeline_store.h"
+#include "app/dispatch/pipeline_store.h"
 
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <fstream>
 #include <iterator>
 #include <string>
-#include <string_view>
 #include <system_error>
 
-#include "app/atomic_file.h"
+#include "app/base/atomic_file.h"
 
 namespace trisect {
 namespace {
@@ -47,18 +45,6 @@ std::vector<std::byte> kept_pipelines(const std::filesystem::path& path) {
   std::memcpy(data.data(), content.data() + sizeof(sum), data.size());
   if (checksum_of(data) != sum) data.clear();
   return data;
-}
-
-std::optional<std::filesystem::path> cache_folder() {
-  // A relative path is to be ignored, as the specification has it.
-  const auto absolute = [](const char* name) -> std::filesystem::path {
-    const char* value = std::getenv(name);
-    const std::filesystem::path path(value == nullptr ? "" : value);
-    return path.is_absolute() ? path : std::filesystem::path();
-  };
-  if (const auto cache = absolute("XDG_CACHE_HOME"); !cache.empty()) return cache / "trisect";
-  if (const auto home = absolute("HOME"); !home.empty()) return home / ".cache" / "trisect";
-  return std::nullopt;
 }
 
 PipelineStore::PipelineStore(const gpu::Device& device,

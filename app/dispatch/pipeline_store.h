@@ -1,4 +1,4 @@
-// Compiled pipelines that outlive the program, in the user's cache folder.
+// Compiled pipelines that outlive the program, in files of a folder.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +9,6 @@
 #include "vk/device.h"
 
 namespace trisect {
-
-// $XDG_CACHE_HOME/trisect, or ~/.cache/trisect; nothing if there is neither (XDG Base Directory
-// Specification 0.8).
-std::optional<std::filesystem::path> cache_folder();
 
 // What a store's file holds behind its checksum; nothing if there is none or that is wrong.
 std::vector<std::byte> kept_pipelines(const std::filesystem::path& file);

@@ -1,11 +1,11 @@
-#include "app/ray_caster.h"
+#include "app/dispatch/ray_caster.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "app/cage.h"
-#include "app/kernels.h"
-#include "app/submit_budget.h"
+#include "app/bake/cage.h"
+#include "app/buffers/kernels.h"
+#include "app/dispatch/submit_budget.h"
 
 namespace trisect {
 namespace {
@@ -48,8 +48,7 @@ RayCaster::RayCaster(const gpu::Device& device, const BakedScene& scene, const T
   scene_.upload(staging_, commands_, scene);
 }
 
-std::vector<CastHit> RayCaster::cast(std::span<const CastRay> rays,
-                                     const std::function<void(std::size_t)>& progress) {
+std::vector<CastHit> RayCaster::cast(std::span<const CastRay> rays) {
   std::vector<CastHit> hits(rays.size());
   SubmitBudget budget;
   for (std::size_t first = 0; first < rays.size(); first += kBatch) {
@@ -59,10 +58,10 @@ std::vector<CastHit> RayCaster::cast(std::span<const CastRay> rays,
       const auto groups = static_cast<uint32_t>(
           std::min<std::size_t>(budget.groups(), (count - done + CAST_SIZE - 1) / CAST_SIZE));
       const CastPush push{{}, static_cast<uint>(done), static_cast<uint>(count)};
+      // Nobody is asked whether to go on: there is a time.
       budget.record(groups,
-                    queue_.run(commands_, {kernel_.get(), 1}, bound_, push, groups, CAST_SIZE));
+                    *queue_.run(commands_, {kernel_.get(), 1}, bound_, push, groups, CAST_SIZE));
       done += std::size_t{groups} * CAST_SIZE;
-      if (progress) progress(first + std::min(done, count));
     }
     staging_.download(commands_, hits_,
                       std::as_writable_bytes(std::span(hits).subspan(first, count)));

@@ -1,15 +1,14 @@
 // Rays of any origin and direction through the kernel's solvers, on Vulkan.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "app/bake.h"
-#include "app/ray_queue.h"
-#include "app/scene_buffers.h"
-#include "app/shared.h"
+#include "app/bake/bake.h"
+#include "app/buffers/scene_buffers.h"
+#include "app/dispatch/ray_queue.h"
+#include "app/surface/shared.h"
 #include "vk/commands.h"
 
 namespace trisect {
@@ -25,11 +24,10 @@ class RayCaster {
   };
 
   // params: rank, resolution, min_delta, alpha and the counts of triangles and cages; its camera is
-  // not used. solver: SOLVER_ROBUST needs the scene's cages. Throws gpu::Error if the device cannot
-  // hold the scene.
-  // If the scene has a bvh rays go by it, else through every patch.
-  // kernel: one of kernel_for(device, scene.choice, solver, needs) that several scenes share,
-  // `needs` of all of them; without one the scene's own is compiled.
+  // not used. solver: SOLVER_ROBUST needs the scene's cages. Throws DeviceError if the device
+  // cannot hold the scene. If the scene has a bvh rays go by it, else through every patch. kernel:
+  // one of kernel_for(device, scene.choice, solver, needs) that several scenes share, `needs` of
+  // all of them; without one the scene's own is compiled.
   RayCaster(const gpu::Device& device, const BakedScene& scene, const TraceParams& params,
             uint solver, std::shared_ptr<const gpu::Kernel> kernel = nullptr,
             uint32_t steps = RayQueue::kSteps);
@@ -37,10 +35,8 @@ class RayCaster {
                                                        const SurfaceChoice& choice, uint solver,
                                                        const Needs& needs);
 
-  // One hit for each ray. progress, if set, is told how many rays are done, between submits; what
-  // it throws stops the cast.
-  std::vector<CastHit> cast(std::span<const CastRay> rays,
-                            const std::function<void(std::size_t)>& progress = {});
+  // One hit for each ray.
+  std::vector<CastHit> cast(std::span<const CastRay> rays);
 
  private:
   std::shared_ptr<const gpu::Kernel> kernel_;

@@ -1,4 +1,4 @@
-#include "app/ray_queue.h"
+#include "app/dispatch/ray_queue.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -12,16 +12,17 @@ RayQueue::RayQueue(const gpu::Device& device, uint32_t rays, uint32_t steps)
               "paused rays"),
       queued_(device, sizeof(QueueState), gpu::Memory::host, "number of paused rays") {}
 
-double RayQueue::run_all(gpu::Commands& commands, std::span<const gpu::Kernel> kernels,
-                         const gpu::BoundBuffers& bound, uint32_t groups, uint32_t group_rays,
-                         const std::function<void()>& between_submits,
-                         const PushBytes& push_bytes) {
+std::optional<double> RayQueue::run_all(gpu::Commands& commands,
+                                        std::span<const gpu::Kernel> kernels,
+                                        const gpu::BoundBuffers& bound, uint32_t groups,
+                                        uint32_t group_rays, const KeepGoing& keep_going,
+                                        const PushBytes& push_bytes) {
   if (groups > rays_ / group_rays) throw std::logic_error("more rays than the queue has places");
   double gpu_ms = 0.0;
-  walk_all(steps_, rays_, [&](const QueuePush& queue) {
+  const bool all = walk_all(steps_, rays_, [&](const QueuePush& queue) -> std::optional<uint32_t> {
     if (queue.pass > 0) {
       groups = (queue.resumed + group_rays - 1) / group_rays;
-      if (between_submits) between_submits();
+      if (!may_go_on(keep_going)) return std::nullopt;
     }
     QueueState state{};
     std::memcpy(queued_.bytes().data(), &state, sizeof(state));
@@ -33,7 +34,7 @@ double RayQueue::run_all(gpu::Commands& commands, std::span<const gpu::Kernel> k
     bytes_read_ += bytes_in(state);
     return state.queued;
   });
-  return gpu_ms;
+  return all ? std::optional(gpu_ms) : std::nullopt;
 }
 
 }  // namespace trisect

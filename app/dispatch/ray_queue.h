@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <optional>
 #include <span>
 #include <utility>
 
-#include "app/shared.h"
+#include "app/base/keep_going.h"
+#include "app/surface/shared.h"
 #include "vk/commands.h"
 
 namespace trisect {
@@ -17,14 +19,16 @@ inline uint64_t bytes_in(const QueueState& state) {
 }
 
 // Calls submit(queue) until no ray is left, for new rays first: it runs the kernel with these push
-// constants and returns how many rays paused. half: places of a queue's half, 0 if a ray has its
-// own.
+// constants and returns how many rays paused, or nothing to stop: then false is returned. half:
+// places of a queue's half, 0 if a ray has its own.
 template <typename Submit>
-void walk_all(uint32_t steps, uint32_t half, Submit&& submit) {
+bool walk_all(uint32_t steps, uint32_t half, Submit&& submit) {
   QueuePush queue{0, steps, 0, half, 0};
   while (true) {
-    queue.resumed = submit(queue);
-    if (queue.resumed == 0) return;
+    const std::optional<uint32_t> paused = submit(queue);
+    if (!paused) return false;
+    queue.resumed = *paused;
+    if (queue.resumed == 0) return true;
     ++queue.pass;
     std::swap(queue.from, queue.to);
   }
@@ -42,13 +46,13 @@ class RayQueue {
 
   // Runs `groups` workgroups of `group_rays` invocations of the first kernel, each with a new ray,
   // then submits what paused to the next one, and to the last until nothing is left. Push: of
-  // shared.h with a member `queue`, which is set here. between_submits, if set, is called between
-  // any two. Returns milliseconds on the device.
+  // shared.h with a member `queue`, which is set here. keep_going is asked between any two submits.
+  // Returns milliseconds on the device; nothing if it said stop.
   template <typename Push>
-  double run(gpu::Commands& commands, std::span<const gpu::Kernel> kernels,
-             const gpu::BoundBuffers& bound, Push push, uint32_t groups, uint32_t group_rays,
-             const std::function<void()>& between_submits = {}) {
-    return run_all(commands, kernels, bound, groups, group_rays, between_submits,
+  std::optional<double> run(gpu::Commands& commands, std::span<const gpu::Kernel> kernels,
+                            const gpu::BoundBuffers& bound, Push push, uint32_t groups,
+                            uint32_t group_rays, const KeepGoing& keep_going = {}) {
+    return run_all(commands, kernels, bound, groups, group_rays, keep_going,
                    [&push](const QueuePush& queue) {
                      push.queue = queue;
                      return std::as_bytes(std::span<const Push>(&push, 1));
@@ -64,9 +68,10 @@ class RayQueue {
 
  private:
   using PushBytes = std::function<std::span<const std::byte>(const QueuePush&)>;
-  double run_all(gpu::Commands& commands, std::span<const gpu::Kernel> kernels,
-                 const gpu::BoundBuffers& bound, uint32_t groups, uint32_t group_rays,
-                 const std::function<void()>& between_submits, const PushBytes& push_bytes);
+  std::optional<double> run_all(gpu::Commands& commands, std::span<const gpu::Kernel> kernels,
+                                const gpu::BoundBuffers& bound, uint32_t groups,
+                                uint32_t group_rays, const KeepGoing& keep_going,
+                                const PushBytes& push_bytes);
 
   uint32_t rays_;
   uint32_t steps_;

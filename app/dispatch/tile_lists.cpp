@@ -1,10 +1,10 @@
-#include "app/tile_lists.h"
+#include "app/dispatch/tile_lists.h"
 
 #include <cstring>
 #include <span>
 
-#include "app/kernels.h"
-#include "app/workgroups.h"
+#include "app/buffers/kernels.h"
+#include "app/dispatch/workgroups.h"
 
 namespace trisect {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "app/kernel_code.h"
-#include "app/shared.h"
+#include "app/buffers/kernel_code.h"
+#include "app/surface/shared.h"
 #include "vk/commands.h"
 
 namespace trisect {

@@ -1,4 +1,4 @@
-#include "app/trace_settings.h"
+#include "app/dispatch/trace_settings.h"
 
 #include <cmath>
 

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#include "app/bake.h"
-#include "app/camera.h"
-#include "app/mesh.h"
-#include "app/shared.h"
+#include "app/bake/bake.h"
+#include "app/dispatch/camera.h"
+#include "app/mesh/mesh.h"
+#include "app/surface/shared.h"
 
 namespace trisect {
 

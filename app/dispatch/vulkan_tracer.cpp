@@ -1,14 +1,15 @@
-#include "app/vulkan_tracer.h"
+#include "app/dispatch/vulkan_tracer.h"
 
 #include <algorithm>
 #include <span>
 #include <stdexcept>
 
-#include "app/buffer_limits.h"
-#include "app/cage.h"
-#include "app/kernels.h"
-#include "app/stopwatch.h"
-#include "app/workgroups.h"
+#include "app/bake/cage.h"
+#include "app/base/error.h"
+#include "app/base/stopwatch.h"
+#include "app/buffers/buffer_limits.h"
+#include "app/buffers/kernels.h"
+#include "app/dispatch/workgroups.h"
 #include "vk/result.h"
 
 namespace trisect {
@@ -30,8 +31,8 @@ std::optional<TileLists> lists_for(const gpu::Device& device, const BakedScene& 
                                    uint32_t width, uint32_t band_rows) {
   if (choice.accel != Accel::tiles) return std::nullopt;
   if (device.subgroup_size() == 0) {
-    throw gpu::Error(device.report().name +
-                     " lacks the subgroup operations of --accel tiles; use --accel list.");
+    throw DeviceError(device.report().name +
+                      " lacks the subgroup operations of --accel tiles; use --accel list.");
   }
   return std::optional<TileLists>(std::in_place, device, constants_of(scene, choice), code,
                                   static_cast<uint32_t>(scene.cages.size()), width, band_rows);
@@ -39,8 +40,8 @@ std::optional<TileLists> lists_for(const gpu::Device& device, const BakedScene& 
 
 SceneBuffers::ByAddress by_address_for(const gpu::Device& device, Accel accel) {
   if (accel == Accel::rayquery && !device.has_ray_query()) {
-    throw gpu::Error(device.report().name +
-                     " lacks the ray queries of --accel rayquery; use --accel bvh.");
+    throw DeviceError(device.report().name +
+                      " lacks the ray queries of --accel rayquery; use --accel bvh.");
   }
   if (accel == Accel::rayquery) return SceneBuffers::ByAddress::always;
   return accel == Accel::bvh ? SceneBuffers::ByAddress::if_large : SceneBuffers::ByAddress::never;
@@ -164,15 +165,17 @@ double VulkanTracer::look(const TraceParams& params) {
   return tiles_ ? tiles_->view(commands_, bound_) : 0.0;
 }
 
-FrameTime VulkanTracer::render(const TraceParams& params, Frame& frame,
-                               const std::function<void()>& between_submits) {
+std::optional<FrameTime> VulkanTracer::render(const TraceParams& params, Frame& frame,
+                                              const KeepGoing& keep_going) {
   const Stopwatch watch;
   FrameTime time;
   time.gpu_ms += look(params);
   frame.resize(params.width, params.height, aovs_);
   for (uint32_t row = 0; row < params.height; row += band_rows_) {
     const uint32_t rows = std::min(band_rows_, params.height - row);
-    time.gpu_ms += render_band(params, row, rows, between_submits);
+    const std::optional<double> ms = render_band(params, row, rows, keep_going);
+    if (!ms) return std::nullopt;
+    time.gpu_ms += *ms;
     download_band(row, rows, frame);
   }
   frame.bytes_read = image_.queue.bytes_read();
@@ -196,45 +199,49 @@ void VulkanTracer::fetch(const TraceParams& params, Frame& frame) {
   download_band(0, params.height, frame);
 }
 
-double VulkanTracer::trace(const TraceParams& params,
-                           const std::function<void()>& between_submits) {
+std::optional<double> VulkanTracer::trace(const TraceParams& params, const KeepGoing& keep_going) {
   if (!holds_at_once(params.width, params.height)) {
     throw std::logic_error("the frame does not fit into the output buffers");
   }
   const double ms = look(params);
-  return ms + render_band(params, 0, params.height, between_submits);
+  const std::optional<double> band_ms = render_band(params, 0, params.height, keep_going);
+  return band_ms ? std::optional(ms + *band_ms) : std::nullopt;
 }
 
-double VulkanTracer::render_band(const TraceParams& params, uint32_t first_row, uint32_t rows,
-                                 const std::function<void()>& between_submits) {
-  const GroupRange groups = groups_of_band(params.width, first_row, rows);
+std::optional<double> VulkanTracer::render_band(const TraceParams& params, uint32_t first_row,
+                                                uint32_t rows, const KeepGoing& keep_going) {
+  const GroupRange all = groups_of_band(params.width, first_row, rows);
   double gpu_ms = 0.0;
+  GroupRange groups = all;
   if (tiles_) {
-    GroupRange seen{0, 0};
-    gpu_ms += tiles_->bin(commands_, bound_, params.width, first_row, rows, seen.end);
-    gpu_ms += run(kernels_, seen, first_row, rows, between_submits);
-  } else {
-    gpu_ms += run(kernels_, groups, first_row, rows, between_submits);
+    groups = {0, 0};
+    gpu_ms += tiles_->bin(commands_, bound_, params.width, first_row, rows, groups.end);
   }
+  const std::optional<double> ms = run(kernels_, groups, first_row, rows, keep_going);
+  if (!ms) return std::nullopt;
+  gpu_ms += *ms;
   if (!shadow_kernels_.empty()) {
-    gpu_ms += run(shadow_kernels_, groups, first_row, rows, between_submits);
+    const std::optional<double> shadow_ms = run(shadow_kernels_, all, first_row, rows, keep_going);
+    if (!shadow_ms) return std::nullopt;
+    gpu_ms += *shadow_ms;
   }
   return gpu_ms;
 }
 
-double VulkanTracer::run(std::span<const gpu::Kernel> kernels, GroupRange groups,
-                         uint32_t first_row, uint32_t rows,
-                         const std::function<void()>& between_submits) {
+std::optional<double> VulkanTracer::run(std::span<const gpu::Kernel> kernels, GroupRange groups,
+                                        uint32_t first_row, uint32_t rows,
+                                        const KeepGoing& keep_going) {
   double gpu_ms = 0.0;
   for (uint32_t group = groups.begin; group < groups.end;) {
     const uint32_t count = std::min({budget_.groups(), groups.end - group, groups.most()});
-    const double ms =
+    const std::optional<double> ms =
         image_.queue.run(commands_, kernels, bound_, TilePush{{}, group, first_row, rows}, count,
-                         kGroupRays, between_submits);
-    gpu_ms += ms;
+                         kGroupRays, keep_going);
+    if (!ms) return std::nullopt;
+    gpu_ms += *ms;
     group += count;
-    budget_.record(count, ms);
-    if (between_submits) between_submits();
+    budget_.record(count, *ms);
+    if (!may_go_on(keep_going)) return std::nullopt;
   }
   return gpu_ms;
 }

@@ -2,23 +2,23 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "app/bake.h"
-#include "app/buffer_limits.h"
-#include "app/frame.h"
-#include "app/frame_time.h"
-#include "app/kernel_choice.h"
-#include "app/kernel_code.h"
-#include "app/ray_queue.h"
-#include "app/scene_buffers.h"
-#include "app/shared.h"
-#include "app/submit_budget.h"
-#include "app/tile_lists.h"
-#include "app/workgroups.h"
+#include "app/bake/bake.h"
+#include "app/base/keep_going.h"
+#include "app/buffers/buffer_limits.h"
+#include "app/buffers/kernel_choice.h"
+#include "app/buffers/kernel_code.h"
+#include "app/buffers/scene_buffers.h"
+#include "app/dispatch/ray_queue.h"
+#include "app/dispatch/submit_budget.h"
+#include "app/dispatch/tile_lists.h"
+#include "app/dispatch/workgroups.h"
+#include "app/frame/frame.h"
+#include "app/frame/frame_time.h"
+#include "app/surface/shared.h"
 #include "vk/commands.h"
 
 namespace trisect {
@@ -27,20 +27,21 @@ class VulkanTracer {
  public:
   // Uploads the scene and compiles the kernels for it. width, height: the most pixels of a frame's
   // sides. buffer_limit: the most bytes a buffer may have, if less than the device's own limit.
-  // code: kernels compiled anew, or null for those that were built in. Throws gpu::Error if the
+  // code: kernels compiled anew, or null for those that were built in. Throws DeviceError if the
   // device cannot hold the scene.
   VulkanTracer(const gpu::Device& device, const BakedScene& scene, uint32_t width, uint32_t height,
                const KernelChoice& choice, std::size_t buffer_limit = kNoLimit,
                const KernelCode* code = nullptr);
 
   // Renders into `frame`, in submits of bounded time. params.width and .height must be at most the
-  // tracer's. between_submits, if set, is called between any two; what it throws stops the frame.
-  FrameTime render(const TraceParams& params, Frame& frame,
-                   const std::function<void()>& between_submits = {});
+  // tracer's. keep_going is asked between any two submits; nothing is returned if it says stop, and
+  // the frame is not whole.
+  std::optional<FrameTime> render(const TraceParams& params, Frame& frame,
+                                  const KeepGoing& keep_going = {});
 
   // The same, but the frame stays on the device, in colors() and aovs(); it must be one that
   // holds_at_once() says. Returns milliseconds on the device.
-  double trace(const TraceParams& params, const std::function<void()>& between_submits = {});
+  std::optional<double> trace(const TraceParams& params, const KeepGoing& keep_going = {});
 
   // What trace() left on the device.
   void fetch(const TraceParams& params, Frame& frame);
@@ -77,10 +78,10 @@ class VulkanTracer {
   [[nodiscard]] gpu::BoundBuffers bind() const;
   void download_band(uint32_t first_row, uint32_t rows, Frame& frame);
   double look(const TraceParams& params);
-  double render_band(const TraceParams& params, uint32_t first_row, uint32_t rows,
-                     const std::function<void()>& between_submits);
-  double run(std::span<const gpu::Kernel> kernels, GroupRange groups, uint32_t first_row,
-             uint32_t rows, const std::function<void()>& between_submits);
+  std::optional<double> render_band(const TraceParams& params, uint32_t first_row, uint32_t rows,
+                                    const KeepGoing& keep_going);
+  std::optional<double> run(std::span<const gpu::Kernel> kernels, GroupRange groups,
+                            uint32_t first_row, uint32_t rows, const KeepGoing& keep_going);
 
   const gpu::Device& device_;
   uint32_t width_;

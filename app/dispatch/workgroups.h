@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "app/shared.h"
+#include "app/surface/shared.h"
 
 namespace trisect {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "app/shared.h"
+#include "app/surface/shared.h"
 
 namespace trisect {
 

@@ -1,8 +1,8 @@
-#include "app/supersampling.h"
+#include "app/frame/supersampling.h"
 
 #include <cmath>
 
-#include "app/image_file.h"
+#include "app/frame/srgb.h"
 
 namespace trisect {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "app/frame.h"
+#include "app/frame/frame.h"
 
 namespace trisect {
 

@@ -1,4 +1,4 @@
-#include "app/mesh_builder.h"
+#include "app/mesh/mesh_builder.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "app/error.h"
-#include "app/polygon.h"
+#include "app/base/error.h"
+#include "app/mesh/polygon.h"
 
 namespace trisect {
 namespace {

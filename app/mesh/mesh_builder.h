@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "app/mesh.h"
-#include "app/obj_file.h"
+#include "app/mesh/mesh.h"
+#include "app/mesh/obj_file.h"
 
 namespace trisect {
 

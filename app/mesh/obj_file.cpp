@@ -1,4 +1,4 @@
-#include "app/obj_file.h"
+#include "app/mesh/obj_file.h"
 
 #include <fmt/format.h>
 #include <tiny_obj_loader.h>
@@ -13,7 +13,7 @@
 #include <system_error>
 #include <utility>
 
-#include "app/error.h"
+#include "app/base/error.h"
 
 namespace trisect {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <array>
 
+#include "app/base/error.h"
 #include "app/opengl/gl.h"
-#include "vk/result.h"
 
 namespace trisect::opengl {
 namespace {
@@ -45,7 +45,7 @@ Context::Context() {
   display_ = surfaceless_display();
   if (display_ == EGL_NO_DISPLAY) display_ = device_display();
   if (display_ == EGL_NO_DISPLAY) {
-    throw gpu::Error("EGL offers neither a surfaceless display nor a device.");
+    throw DeviceError("EGL offers neither a surfaceless display nor a device.");
   }
   eglBindAPI(EGL_OPENGL_API);
   const std::array<EGLint, 7> attributes{EGL_CONTEXT_MAJOR_VERSION,
@@ -62,7 +62,7 @@ Context::Context() {
   if (!current) {
     if (context_ != EGL_NO_CONTEXT) eglDestroyContext(display_, context_);
     eglTerminate(display_);
-    throw gpu::Error("EGL offers no OpenGL 4.3 core context without a surface.");
+    throw DeviceError("EGL offers no OpenGL 4.3 core context without a surface.");
   }
   device_ = text_of(GL_RENDERER);
   driver_ = "OpenGL " + text_of(GL_VERSION);

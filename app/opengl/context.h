@@ -8,7 +8,7 @@ namespace trisect::opengl {
 class Context {
  public:
   // Makes a context current on the calling thread: on EGL's surfaceless platform, or else on its
-  // first device. Throws gpu::Error if there is none with OpenGL 4.3.
+  // first device. Throws DeviceError if there is none with OpenGL 4.3.
   Context();
   ~Context();
   Context(const Context&) = delete;

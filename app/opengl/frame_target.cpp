@@ -1,11 +1,10 @@
 #include "app/opengl/frame_target.h"
 
 #include <fmt/format.h>
+#include "app/base/error.h"
 
 #include <array>
 #include <cstring>
-
-#include "vk/result.h"
 
 namespace trisect::opengl {
 namespace {
@@ -42,7 +41,7 @@ Framebuffer make_framebuffer(const std::vector<Texture>& textures) {
   }
   glDrawBuffers(static_cast<GLsizei>(attachments.size()), attachments.data());
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-    throw gpu::Error(fmt::format("device {} has no framebuffers of floats.", device_name()));
+    throw DeviceError(fmt::format("device {} has no framebuffers of floats.", device_name()));
   }
   return framebuffer;
 }

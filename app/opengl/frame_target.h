@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "app/frame.h"
+#include "app/frame/frame.h"
 #include "app/opengl/objects.h"
 
 namespace trisect::opengl {
@@ -12,7 +12,7 @@ namespace trisect::opengl {
 class FrameTarget {
  public:
   // Colour, and with `aovs` the outputs of PixelAovs as trace_list.frag has them. A context must be
-  // current, and stay so. Throws gpu::Error if OpenGL has no such framebuffers.
+  // current, and stay so. Throws DeviceError if OpenGL has no such framebuffers.
   FrameTarget(uint32_t width, uint32_t rows, bool aovs);
 
   void bind() const;

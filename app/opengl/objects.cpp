@@ -1,8 +1,7 @@
 #include "app/opengl/objects.h"
 
 #include <fmt/format.h>
-
-#include "vk/result.h"
+#include "app/base/error.h"
 
 namespace trisect::opengl {
 namespace {
@@ -11,7 +10,7 @@ struct Shader : Owned<[](GLuint name) { glDeleteShader(name); }> {
   using Owned::Owned;
 };
 
-// Throws gpu::Error with the compiler's words, on one line, if a shader's or a program's status is
+// Throws DeviceError with the compiler's words, on one line, if a shader's or a program's status is
 // not true. get, get_log: glGetShaderiv and glGetShaderInfoLog, or those of programs.
 template <typename Get, typename GetLog>
 void expect_status(GLuint name, GLenum status, Get get, GetLog get_log, const char* what) {
@@ -23,7 +22,7 @@ void expect_status(GLuint name, GLenum status, Get get, GetLog get_log, const ch
   get_log(name, static_cast<GLsizei>(text.size()), &length, text.data());
   text.resize(static_cast<std::size_t>(length));
   for (char& c : text) c = c == '\n' ? ' ' : c;
-  throw gpu::Error(fmt::format("OpenGL did not {}: {}", what, text));
+  throw DeviceError(fmt::format("OpenGL did not {}: {}", what, text));
 }
 
 Shader compiled(const std::string& head, const Stage& stage) {
@@ -51,7 +50,7 @@ VertexArray make_vertex_array() {
 void check(const std::string& what) {
   const GLenum error = glGetError();
   if (error == GL_NO_ERROR) return;
-  throw gpu::Error(fmt::format("OpenGL reports error {:#x}: {}.", error, what));
+  throw DeviceError(fmt::format("OpenGL reports error {:#x}: {}.", error, what));
 }
 
 Program make_program(const std::string& head, const std::vector<Stage>& stages) {

@@ -14,7 +14,8 @@ namespace trisect::opengl {
 // GL_RENDERER.
 std::string device_name();
 
-// Throws gpu::Error if OpenGL has reported an error since it was asked last. `what`: what was done.
+// Throws DeviceError if OpenGL has reported an error since it was asked last. `what`: what was
+// done.
 void check(const std::string& what);
 
 // An object's name, freed by `Free` at the end.
@@ -67,13 +68,13 @@ struct Stage {
   const char* text;
 };
 
-// Compiles and links; `head` comes before every stage's text, the version in it. Throws gpu::Error
+// Compiles and links; `head` comes before every stage's text, the version in it. Throws DeviceError
 // with the compiler's words.
 Program make_program(const std::string& head, const std::vector<Stage>& stages);
 
 class Buffer {
  public:
-  // Bytes of zero. Throws gpu::Error if there is no memory for them.
+  // Bytes of zero. Throws DeviceError if there is no memory for them.
   Buffer(std::size_t size, const std::string& name);
 
   void write(std::span<const std::byte> bytes);

@@ -3,7 +3,7 @@
 
 #include <glm/glm.hpp>
 
-#include "app/shared.h"
+#include "app/surface/shared.h"
 
 namespace trisect::opengl {
 

@@ -4,11 +4,11 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <span>
 
-#include "app/buffer_limits.h"
-#include "app/kernels.h"
+#include "app/base/stopwatch.h"
+#include "app/buffers/buffer_limits.h"
+#include "app/buffers/kernels.h"
 #include "app/opengl/projection.h"
 #include "app/opengl/shader_head.h"
-#include "app/stopwatch.h"
 
 namespace trisect::opengl {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "app/bake.h"
-#include "app/frame.h"
+#include "app/bake/bake.h"
+#include "app/frame/frame.h"
 #include "app/opengl/frame_target.h"
 #include "app/opengl/objects.h"
 
@@ -15,7 +15,7 @@ class Rasterizer {
  public:
   // Uploads the scene and compiles the shaders for it; a context must be current, and stay so.
   // level: of tessellation, 1 to 64, what OpenGL promises. params: as Tracer::render has them.
-  // Throws gpu::Error if OpenGL cannot hold the scene or the image.
+  // Throws DeviceError if OpenGL cannot hold the scene or the image.
   Rasterizer(const BakedScene& scene, const TraceParams& params, uint32_t level, bool aovs);
 
   // Milliseconds by the host's clock, until the image is drawn but not yet read.

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/cage.h"
+#include "app/bake/cage.h"
 
 namespace trisect::opengl {
 

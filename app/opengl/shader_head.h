@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "app/bake.h"
-#include "app/kernel_choice.h"
+#include "app/bake/bake.h"
+#include "app/buffers/kernel_choice.h"
 
 namespace trisect::opengl {
 

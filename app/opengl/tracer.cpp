@@ -8,15 +8,15 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <stdexcept>
 
-#include "app/buffer_limits.h"
-#include "app/cage.h"
-#include "app/kernels.h"
+#include "app/bake/cage.h"
+#include "app/base/error.h"
+#include "app/base/stopwatch.h"
+#include "app/buffers/buffer_limits.h"
+#include "app/buffers/kernels.h"
+#include "app/dispatch/ray_queue.h"
+#include "app/dispatch/workgroups.h"
 #include "app/opengl/projection.h"
 #include "app/opengl/shader_head.h"
-#include "app/ray_queue.h"
-#include "app/stopwatch.h"
-#include "app/workgroups.h"
-#include "vk/result.h"
 
 namespace trisect::opengl {
 namespace {
@@ -34,8 +34,8 @@ uint32_t band_rows(GlPath path, std::size_t limit, uint32_t width, uint32_t heig
   GLint most = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
   if (path == GlPath::fragment && (static_cast<GLint>(width) > most)) {
-    throw gpu::Error(fmt::format("device {} has framebuffers of at most {} pixels a side.",
-                                 device_name(), most));
+    throw DeviceError(fmt::format("device {} has framebuffers of at most {} pixels a side.",
+                                  device_name(), most));
   }
   return rows_in_a_band(device_name(), limit, width, height, aovs || path == GlPath::fragment);
 }
@@ -100,8 +100,8 @@ void Tracer::bind() const {
   if (aovs_buffer_) aovs_buffer_->bind(GL_SHADER_STORAGE_BUFFER, BINDING_AOVS);
 }
 
-FrameTime Tracer::render(const TraceParams& params, Frame& frame,
-                         const std::function<void()>& between_submits) {
+std::optional<FrameTime> Tracer::render(const TraceParams& params, Frame& frame,
+                                        const KeepGoing& keep_going) {
   if (params.width != width_ || params.height != height_) {
     throw std::logic_error("the trace parameters are not for this tracer's image size");
   }
@@ -115,14 +115,12 @@ FrameTime Tracer::render(const TraceParams& params, Frame& frame,
   bind();
   for (uint32_t row = 0; row < height_; row += band_rows_) {
     const uint32_t rows = std::min(band_rows_, height_ - row);
+    const std::optional<double> ms = render_band(params, row, rows, keep_going);
+    if (!ms) return std::nullopt;
+    time.gpu_ms += *ms;
     if (path_ == GlPath::compute) {
-      time.gpu_ms += compute_band(program_, row, rows, between_submits);
-      if (shadow_program_) {
-        time.gpu_ms += compute_band(*shadow_program_, row, rows, between_submits);
-      }
       read_buffers(row, rows, frame);
     } else {
-      time.gpu_ms += draw_band(params, row, rows, between_submits);
       target_->read(row, rows, frame);
     }
   }
@@ -130,6 +128,16 @@ FrameTime Tracer::render(const TraceParams& params, Frame& frame,
   check("a frame was rendered");
   time.wall_ms = watch.milliseconds();
   return time;
+}
+
+std::optional<double> Tracer::render_band(const TraceParams& params, uint32_t first_row,
+                                          uint32_t rows, const KeepGoing& keep_going) {
+  if (path_ == GlPath::fragment) return draw_band(params, first_row, rows, keep_going);
+  const std::optional<double> ms = compute_band(program_, first_row, rows, keep_going);
+  if (!ms || !shadow_program_) return ms;
+  const std::optional<double> shadow_ms =
+      compute_band(*shadow_program_, first_row, rows, keep_going);
+  return shadow_ms ? std::optional(*ms + *shadow_ms) : std::nullopt;
 }
 
 uint32_t Tracer::submit(const TilePush& push, const std::function<void()>& work) {
@@ -144,30 +152,32 @@ uint32_t Tracer::submit(const TilePush& push, const std::function<void()>& work)
   return state.queued;
 }
 
-double Tracer::compute_band(const Program& program, uint32_t first_row, uint32_t rows,
-                            const std::function<void()>& between_submits) {
+std::optional<double> Tracer::compute_band(const Program& program, uint32_t first_row,
+                                           uint32_t rows, const KeepGoing& keep_going) {
   const GroupRange groups = groups_of_band(width_, first_row, rows);
   glUseProgram(program.get());
   double total_ms = 0.0;
   for (uint32_t group = groups.begin; group < groups.end;) {
     const uint32_t count = std::min({budget_.groups(), groups.end - group, groups.most()});
     const Stopwatch watch;
-    walk_all(RayQueue::kSteps, groups.most() * kGroupRays, [&](const QueuePush& queue) {
-      const uint32_t submitted =
-          queue.pass == 0 ? count : (queue.resumed + kGroupRays - 1) / kGroupRays;
-      return submit({queue, group, first_row}, [&] { glDispatchCompute(submitted, 1, 1); });
-    });
+    walk_all(
+        RayQueue::kSteps, groups.most() * kGroupRays,
+        [&](const QueuePush& queue) -> std::optional<uint32_t> {
+          const uint32_t submitted =
+              queue.pass == 0 ? count : (queue.resumed + kGroupRays - 1) / kGroupRays;
+          return submit({queue, group, first_row}, [&] { glDispatchCompute(submitted, 1, 1); });
+        });
     const double ms = watch.milliseconds();
     total_ms += ms;
     group += count;
     budget_.record(count, ms);
-    if (between_submits) between_submits();
+    if (!may_go_on(keep_going)) return std::nullopt;
   }
   return total_ms;
 }
 
-double Tracer::draw_band(const TraceParams& params, uint32_t first_row, uint32_t rows,
-                         const std::function<void()>& between_submits) {
+std::optional<double> Tracer::draw_band(const TraceParams& params, uint32_t first_row,
+                                        uint32_t rows, const KeepGoing& keep_going) {
   // OpenGL counts rows from below: the band's lowest one is this.
   const uint32_t lowest = height_ - first_row - rows;
   glUseProgram(program_.get());
@@ -185,14 +195,14 @@ double Tracer::draw_band(const TraceParams& params, uint32_t first_row, uint32_t
     glScissor(0, static_cast<GLint>(row), static_cast<GLsizei>(width_),
               static_cast<GLsizei>(count));
     const Stopwatch watch;
-    walk_all(RayQueue::kSteps, 0, [&](const QueuePush& queue) {
+    walk_all(RayQueue::kSteps, 0, [&](const QueuePush& queue) -> std::optional<uint32_t> {
       return submit({queue, lowest, first_row}, [] { glDrawArrays(GL_TRIANGLE_STRIP, 0, 4); });
     });
     const double ms = watch.milliseconds();
     total_ms += ms;
     row += count;
     budget_.record(count, ms);
-    if (between_submits) between_submits();
+    if (!may_go_on(keep_going)) return std::nullopt;
   }
   return total_ms;
 }

@@ -5,15 +5,16 @@
 #include <functional>
 #include <optional>
 
-#include "app/bake.h"
-#include "app/buffer_limits.h"
-#include "app/frame.h"
-#include "app/frame_time.h"
-#include "app/kernel_choice.h"
+#include "app/bake/bake.h"
+#include "app/base/keep_going.h"
+#include "app/buffers/buffer_limits.h"
+#include "app/buffers/kernel_choice.h"
+#include "app/dispatch/backend.h"
+#include "app/dispatch/submit_budget.h"
+#include "app/frame/frame.h"
+#include "app/frame/frame_time.h"
 #include "app/opengl/frame_target.h"
 #include "app/opengl/objects.h"
-#include "app/options.h"
-#include "app/submit_budget.h"
 
 namespace trisect::opengl {
 
@@ -21,13 +22,13 @@ class Tracer {
  public:
   // Uploads the scene and compiles the shaders for it; a context must be current, and stay so.
   // width, height: pixels of the frames. buffer_limit: the most bytes a buffer may have, if less
-  // than OpenGL's own limit. Throws gpu::Error if OpenGL cannot hold the scene or the image.
+  // than OpenGL's own limit. Throws DeviceError if OpenGL cannot hold the scene or the image.
   Tracer(const BakedScene& scene, uint32_t width, uint32_t height, const KernelChoice& choice,
          GlPath path, std::size_t buffer_limit = kNoLimit);
 
   // As VulkanTracer::render; gpu_ms is by the host's clock.
-  FrameTime render(const TraceParams& params, Frame& frame,
-                   const std::function<void()>& between_submits = {});
+  std::optional<FrameTime> render(const TraceParams& params, Frame& frame,
+                                  const KeepGoing& keep_going = {});
 
   [[nodiscard]] double upload_ms() const { return upload_ms_; }
 
@@ -35,10 +36,13 @@ class Tracer {
   void bind() const;
   // Runs `work` with these push constants and returns how many rays have paused.
   uint32_t submit(const TilePush& push, const std::function<void()>& work);
-  double compute_band(const Program& program, uint32_t first_row, uint32_t rows,
-                      const std::function<void()>& between_submits);
-  double draw_band(const TraceParams& params, uint32_t first_row, uint32_t rows,
-                   const std::function<void()>& between_submits);
+  // Milliseconds; nothing if keep_going said stop.
+  std::optional<double> compute_band(const Program& program, uint32_t first_row, uint32_t rows,
+                                     const KeepGoing& keep_going);
+  std::optional<double> draw_band(const TraceParams& params, uint32_t first_row, uint32_t rows,
+                                  const KeepGoing& keep_going);
+  std::optional<double> render_band(const TraceParams& params, uint32_t first_row, uint32_t rows,
+                                    const KeepGoing& keep_going);
   void read_buffers(uint32_t first_row, uint32_t rows, Frame& frame) const;
 
   uint32_t width_;

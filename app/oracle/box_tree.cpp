@@ -1,4 +1,4 @@
-#include "app/box_tree.h"
+#include "app/oracle/box_tree.h"
 
 #include <algorithm>
 #include <cmath>

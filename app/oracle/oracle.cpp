@@ -1,9 +1,9 @@
-#include "app/oracle.h"
+#include "app/oracle/oracle.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/interval.h"
+#include "app/base/interval.h"
 
 namespace trisect {
 namespace {

@@ -6,11 +6,13 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <limits>
+#include <optional>
 #include <vector>
 
-#include "app/bake.h"
-#include "app/box_tree.h"
-#include "app/patch_search.h"
+#include "app/bake/bake.h"
+#include "app/base/keep_going.h"
+#include "app/oracle/box_tree.h"
+#include "app/oracle/patch_search.h"
 
 namespace trisect {
 
@@ -69,11 +71,11 @@ struct OracleFrame {
 };
 
 // One answer for each pixel, on as many threads as the machine has. ray_of and motion_of are called
-// on those threads. progress(done rows) is called on the calling thread a few times a second. What
-// any of the three throws stops the work and is thrown on.
-OracleFrame oracle_frame(const Oracle& oracle, uint32_t width, uint32_t height,
-                         const std::function<OracleRay(uint32_t x, uint32_t y)>& ray_of,
-                         const std::function<double(const OracleRay&)>& motion_of,
-                         const std::function<void(uint32_t)>& progress);
+// on those threads. progress: as parallel_rows has it, of rows; nothing is returned if it says
+// stop. What any of the three throws stops the work and is thrown on.
+std::optional<OracleFrame> oracle_frame(
+    const Oracle& oracle, uint32_t width, uint32_t height,
+    const std::function<OracleRay(uint32_t x, uint32_t y)>& ray_of,
+    const std::function<double(const OracleRay&)>& motion_of, const Progress& progress);
 
 }  // namespace trisect

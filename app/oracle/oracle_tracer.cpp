@@ -1,11 +1,11 @@
-#include "app/oracle_tracer.h"
+#include "app/oracle/oracle_tracer.h"
 
 #include <cmath>
 
-#include "app/kernel_float.h"
-#include "app/parallel_rows.h"
-#include "app/surface_double.h"
-#include "app/widen.h"
+#include "app/base/parallel_rows.h"
+#include "app/dispatch/kernel_float.h"
+#include "app/surface/surface_double.h"
+#include "app/surface/widen.h"
 
 namespace trisect {
 
@@ -29,8 +29,8 @@ OraclePixelRay oracle_pixel_ray(const TraceParams& params, uint32_t x, uint32_t 
   return pixel;
 }
 
-OracleFrame trace_with_oracle(const BakedScene& scene, const TraceParams& params,
-                              const std::function<void(uint32_t)>& progress) {
+std::optional<OracleFrame> trace_with_oracle(const BakedScene& scene, const TraceParams& params,
+                                             const Progress& progress) {
   const Oracle oracle(scene);
   const double motion = kMotion * static_cast<double>(params.anchor.w);
   return oracle_frame(
@@ -71,9 +71,8 @@ OracleAnswer oracle_shadow(const Oracle& oracle, const BakedScene& scene, const 
   return oracle.first(ray, kMotion * static_cast<double>(params.anchor.w));
 }
 
-void cast_oracle_shadows(const OracleFrame& answers, const BakedScene& scene,
-                         const TraceParams& params, Frame& frame,
-                         const std::function<void(uint32_t)>& progress) {
+bool cast_oracle_shadows(const OracleFrame& answers, const BakedScene& scene,
+                         const TraceParams& params, Frame& frame, const Progress& progress) {
   const Oracle oracle(scene);
   const auto row = [&](uint32_t y) {
     in_float::Kernel kernel = in_float::kernel_of(scene, params, {SOLVER_ROBUST, true, false});
@@ -87,7 +86,7 @@ void cast_oracle_shadows(const OracleFrame& answers, const BakedScene& scene,
       }
     }
   };
-  parallel_rows(frame.height, row, progress);
+  return parallel_rows(frame.height, row, progress);
 }
 
 }  // namespace trisect

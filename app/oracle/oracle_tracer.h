@@ -1,12 +1,12 @@
 // The oracle as a back end: the same rays as the kernels', in double precision.
 #pragma once
 
-#include <functional>
+#include <optional>
 
-#include "app/bake.h"
-#include "app/frame.h"
-#include "app/oracle.h"
-#include "app/shared.h"
+#include "app/bake/bake.h"
+#include "app/frame/frame.h"
+#include "app/oracle/oracle.h"
+#include "app/surface/shared.h"
 
 namespace trisect {
 
@@ -22,19 +22,19 @@ OraclePixelRay oracle_pixel_ray(const TraceParams& params, uint32_t x, uint32_t 
 // from the eye to the anchor.
 constexpr double kMotion = 1e-7;
 
-// progress: as parallel_rows has it.
-OracleFrame trace_with_oracle(const BakedScene& scene, const TraceParams& params,
-                              const std::function<void(uint32_t)>& progress);
+// progress: as oracle_frame has it.
+std::optional<OracleFrame> trace_with_oracle(const BakedScene& scene, const TraceParams& params,
+                                             const Progress& progress);
 
 // Whether light reaches what a ray along `view` met at these weights of a triangle: what it meets
 // on its way to the light. Where the surface itself turns away from the light, that is the surface.
 OracleAnswer oracle_shadow(const Oracle& oracle, const BakedScene& scene, const TraceParams& params,
                            uint32_t triangle, const glm::dvec3& weights, const glm::dvec3& view);
 
-// Darkens the pixels of frame_of() that light does not reach.
-void cast_oracle_shadows(const OracleFrame& answers, const BakedScene& scene,
-                         const TraceParams& params, Frame& frame,
-                         const std::function<void(uint32_t)>& progress);
+// Darkens the pixels of frame_of() that light does not reach. progress: as parallel_rows has it, of
+// rows; false: it stopped the work.
+bool cast_oracle_shadows(const OracleFrame& answers, const BakedScene& scene,
+                         const TraceParams& params, Frame& frame, const Progress& progress);
 
 // The answers as a frame, shaded as the robust solver's are, with AOVs; rounded to single
 // precision.

@@ -1,4 +1,4 @@
-#include "app/patch_search.h"
+#include "app/oracle/patch_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <tuple>
 #include <utility>
 
-#include "app/interval.h"
-#include "app/sphere_range.h"
-#include "app/widen.h"
+#include "app/base/interval.h"
+#include "app/surface/sphere_range.h"
+#include "app/surface/widen.h"
 
 namespace trisect {
 namespace {

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "app/patch_range.h"
-#include "app/surface_choice.h"
-#include "app/surface_double.h"
+#include "app/surface/patch_range.h"
+#include "app/surface/surface_choice.h"
+#include "app/surface/surface_double.h"
 
 namespace trisect {
 

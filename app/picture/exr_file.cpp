@@ -8,8 +8,9 @@
 #include <exception>
 #include <vector>
 
-#include "app/error.h"
-#include "app/image_file.h"
+#include "app/base/error.h"
+#include "app/frame/srgb.h"
+#include "app/picture/image_file.h"
 
 namespace trisect {
 namespace {

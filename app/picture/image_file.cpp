@@ -1,11 +1,10 @@
-#include "app/image_file.h"
+#include "app/picture/image_file.h"
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <string>
 
-#include "app/error.h"
+#include "app/base/error.h"
 
 namespace trisect {
 
@@ -24,16 +23,6 @@ void write_image(const Frame& frame, ImageFormat format, bool evals, const Atomi
   } else {
     write_exr(frame, evals, file);
   }
-}
-
-float linear_from_srgb(float encoded) {
-  const auto x = static_cast<double>(encoded);
-  return static_cast<float>(x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4));
-}
-
-float srgb_from_linear(float linear) {
-  const auto x = static_cast<double>(linear);
-  return static_cast<float>(x <= 0.0031308 ? x * 12.92 : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055);
 }
 
 }  // namespace trisect

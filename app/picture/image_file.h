@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "app/atomic_file.h"
-#include "app/frame.h"
+#include "app/base/atomic_file.h"
+#include "app/frame/frame.h"
 
 namespace trisect {
 
@@ -12,12 +12,6 @@ enum class ImageFormat { png, exr };
 
 // By the file name's ending, .png or .exr in any letter case. Throws UsageError for any other.
 ImageFormat image_format(const std::filesystem::path& path);
-
-// One sRGB-encoded component as linear light (IEC 61966-2-1).
-float linear_from_srgb(float encoded);
-
-// And back.
-float srgb_from_linear(float linear);
 
 // Writes 8-bit sRGB. Throws InputError, naming the file.
 void write_png(const Frame& frame, const AtomicFile& file);

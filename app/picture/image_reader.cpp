@@ -1,4 +1,5 @@
-#include "app/image_reader.h"
+#include "app/picture/image_reader.h"
+#include "app/frame/srgb.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -13,8 +14,8 @@
 #include <exception>
 #include <string>
 
-#include "app/error.h"
-#include "app/image_file.h"
+#include "app/base/error.h"
+#include "app/picture/image_file.h"
 
 namespace trisect {
 namespace {

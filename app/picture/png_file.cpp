@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "app/error.h"
-#include "app/image_file.h"
+#include "app/base/error.h"
+#include "app/picture/image_file.h"
 
 namespace trisect {
 

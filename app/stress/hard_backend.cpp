@@ -1,4 +1,4 @@
-#include "app/hard_backend.h"
+#include "app/stress/hard_backend.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <thread>
 #include <tuple>
 
-#include "app/cpu_tracer.h"
-#include "app/ray_caster.h"
-#include "app/vulkan_tracer.h"
+#include "app/dispatch/cpu_tracer.h"
+#include "app/dispatch/ray_caster.h"
+#include "app/dispatch/vulkan_tracer.h"
 
 namespace trisect {
 

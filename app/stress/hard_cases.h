@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "app/bake.h"
-#include "app/frame.h"
-#include "app/kernel_choice.h"
-#include "app/mesh.h"
-#include "app/shared.h"
+#include "app/bake/bake.h"
+#include "app/buffers/kernel_choice.h"
+#include "app/frame/frame.h"
+#include "app/mesh/mesh.h"
+#include "app/surface/shared.h"
 
 namespace trisect {
 

@@ -5,15 +5,15 @@
 #include <cmath>
 #include <limits>
 
-#include "app/cage.h"
-#include "app/camera.h"
-#include "app/error.h"
-#include "app/hard_cases.h"
-#include "app/hard_judge.h"
-#include "app/hard_scenes.h"
-#include "app/mesh_builder.h"
-#include "app/oracle_tracer.h"
-#include "app/trace_settings.h"
+#include "app/bake/cage.h"
+#include "app/base/error.h"
+#include "app/dispatch/camera.h"
+#include "app/dispatch/trace_settings.h"
+#include "app/mesh/mesh_builder.h"
+#include "app/oracle/oracle_tracer.h"
+#include "app/stress/hard_cases.h"
+#include "app/stress/hard_judge.h"
+#include "app/stress/hard_scenes.h"
 
 namespace trisect {
 namespace {

@@ -1,11 +1,11 @@
-#include "app/hard_judge.h"
+#include "app/stress/hard_judge.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/cage.h"
-#include "app/parallel_rows.h"
-#include "app/trace_settings.h"
+#include "app/bake/cage.h"
+#include "app/base/parallel_rows.h"
+#include "app/dispatch/trace_settings.h"
 
 namespace trisect {
 namespace {

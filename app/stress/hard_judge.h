@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/hard_cases.h"
-#include "app/oracle.h"
+#include "app/oracle/oracle.h"
+#include "app/stress/hard_cases.h"
 
 namespace trisect {
 

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <utility>
 
-#include "app/hard_cases.h"
-#include "app/hard_scenes.h"
-#include "app/oracle.h"
+#include "app/oracle/oracle.h"
+#include "app/stress/hard_cases.h"
+#include "app/stress/hard_scenes.h"
 
 namespace trisect {
 namespace {

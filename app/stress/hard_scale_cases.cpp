@@ -5,8 +5,8 @@
 
 #include <utility>
 
-#include "app/hard_cases.h"
-#include "app/hard_scenes.h"
+#include "app/stress/hard_cases.h"
+#include "app/stress/hard_scenes.h"
 
 namespace trisect {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/hard_scenes.h"
+#include "app/stress/hard_scenes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <map>
 #include <utility>
 
-#include "app/surface_double.h"
-#include "app/widen.h"
+#include "app/surface/surface_double.h"
+#include "app/surface/widen.h"
 
 namespace trisect::hard {
 namespace {

@@ -6,9 +6,9 @@
 #include <random>
 #include <vector>
 
-#include "app/bake.h"
-#include "app/mesh.h"
-#include "app/shared.h"
+#include "app/bake/bake.h"
+#include "app/mesh/mesh.h"
+#include "app/surface/shared.h"
 
 namespace trisect::hard {
 

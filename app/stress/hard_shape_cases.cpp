@@ -3,9 +3,9 @@
 #include <limits>
 #include <utility>
 
-#include "app/hard_cases.h"
-#include "app/hard_scenes.h"
-#include "app/mesh_builder.h"
+#include "app/mesh/mesh_builder.h"
+#include "app/stress/hard_cases.h"
+#include "app/stress/hard_scenes.h"
 
 namespace trisect {
 namespace {

@@ -1,10 +1,10 @@
-#include "app/patch_range.h"
+#include "app/surface/patch_range.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "app/sphere_range.h"
+#include "app/surface/sphere_range.h"
 
 namespace trisect {
 namespace {

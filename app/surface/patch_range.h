@@ -7,9 +7,9 @@
 #include <glm/glm.hpp>
 #include <optional>
 
-#include "app/interval.h"
-#include "app/shared.h"
-#include "app/surface_choice.h"
+#include "app/base/interval.h"
+#include "app/surface/shared.h"
+#include "app/surface/surface_choice.h"
 
 namespace trisect {
 

@@ -1,9 +1,9 @@
-#include "app/sphere_range.h"
+#include "app/surface/sphere_range.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/surface_double.h"
+#include "app/surface/surface_double.h"
 
 namespace trisect {
 namespace {

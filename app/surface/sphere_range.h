@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "app/interval.h"
-#include "app/patch_range.h"
+#include "app/base/interval.h"
+#include "app/surface/patch_range.h"
 
 namespace trisect {
 

@@ -1,4 +1,4 @@
-#include "app/widen.h"
+#include "app/surface/widen.h"
 
 namespace trisect {
 

@@ -1,9 +1,9 @@
 // The baked numbers in double precision, for the shaders' mathematics there.
 #pragma once
 
-#include "app/shared.h"
-#include "app/surface_choice.h"
-#include "app/surface_double.h"
+#include "app/surface/shared.h"
+#include "app/surface/surface_choice.h"
+#include "app/surface/surface_double.h"
 
 namespace trisect {
 

@@ -1,105 +1,121 @@
-#include "app/trace_scene.h"
+#include "app/trace/trace_scene.h"
 
 #include <fmt/format.h>
 
 #include <thread>
 
-#include "app/cpu_tracer.h"
-#include "app/interrupt.h"
+#include "app/base/stopwatch.h"
+#include "app/dispatch/cpu_tracer.h"
+#include "app/dispatch/pipeline_store.h"
+#include "app/dispatch/vulkan_tracer.h"
 #include "app/opengl/context.h"
 #include "app/opengl/tracer.h"
-#include "app/oracle_tracer.h"
-#include "app/pipeline_store.h"
-#include "app/progress.h"
-#include "app/stopwatch.h"
-#include "app/vulkan_tracer.h"
+#include "app/oracle/oracle_tracer.h"
 
 namespace trisect {
 namespace {
 
-// The runs of a tracer on a device.
+// The runs of a tracer on a device. False: stopped.
 template <typename Tracer>
-void run_on_device(const TraceRequest& request, const TraceParams& params, Tracer& tracer,
-                   TraceResult& result) {
+bool run_on_device(const TraceRequest& request, const TraceParams& params, Tracer& tracer,
+                   const TraceProgress& progress, TraceResult& result) {
   result.upload_ms = tracer.upload_ms();
-  if (request.warm_up) tracer.render(params, result.frame, stop_if_interrupted);
+  const KeepGoing keep_going = [&] { return !progress || progress(0.0); };
+  if (request.warm_up && !tracer.render(params, result.frame, keep_going)) return false;
   for (uint32_t run = 0; run < request.runs; ++run) {
-    result.frames.push_back(tracer.render(params, result.frame, stop_if_interrupted));
+    const std::optional<FrameTime> time = tracer.render(params, result.frame, keep_going);
+    if (!time) return false;
+    result.frames.push_back(*time);
   }
+  return true;
 }
 
-void trace_on_vulkan(const TraceRequest& request, const BakedScene& scene,
-                     const TraceParams& params, const KernelChoice& choice, TraceResult& result) {
+bool trace_on_vulkan(const TraceRequest& request, const BakedScene& scene,
+                     const TraceParams& params, const KernelChoice& choice,
+                     const TraceProgress& progress, TraceResult& result) {
   const gpu::Instance instance(request.validation);
+  bool all = false;
   {
     const gpu::Device device(instance, request.device);
-    const PipelineStore store(device, cache_folder());
+    const PipelineStore store(device, request.pipeline_folder);
     result.device = device.report().name;
     result.driver = device.report().driver;
     VulkanTracer tracer(device, scene, params.width, params.height, choice);
-    run_on_device(request, params, tracer, result);
+    all = run_on_device(request, params, tracer, progress, result);
   }
   // Those of the clean-up among them.
   result.messages = instance.log().messages();
+  return all;
 }
 
-void trace_on_opengl(const TraceRequest& request, const BakedScene& scene,
-                     const TraceParams& params, const KernelChoice& choice, TraceResult& result) {
+bool trace_on_opengl(const TraceRequest& request, const BakedScene& scene,
+                     const TraceParams& params, const KernelChoice& choice,
+                     const TraceProgress& progress, TraceResult& result) {
   const opengl::Context context;
   result.device = context.device();
   result.driver = context.driver();
   opengl::Tracer tracer(scene, params.width, params.height, choice, request.gl_path);
-  run_on_device(request, params, tracer, result);
+  return run_on_device(request, params, tracer, progress, result);
 }
 
-// `frame_once` renders one frame, told how many rows are done.
+// frame_once(progress) renders one frame of so many rows of work; false: stopped.
 template <typename FrameOnce>
-void trace_on_host(const TraceRequest& request, uint32_t rows_of_work, const std::string& driver,
-                   TraceResult& result, FrameOnce&& frame_once) {
+bool trace_on_host(const TraceRequest& request, uint32_t rows_of_work, const std::string& driver,
+                   const TraceProgress& progress, TraceResult& result, FrameOnce&& frame_once) {
   result.device = fmt::format("CPU, {} threads", std::thread::hardware_concurrency());
   result.driver = driver;
+  const auto tell = [&](uint32_t rows) {
+    return !progress || progress(static_cast<double>(rows) / rows_of_work);
+  };
   for (uint32_t run = 0; run < request.runs; ++run) {
-    Progress progress("rendering", rows_of_work);
     const Stopwatch watch;
-    frame_once([&](uint32_t rows) { progress.show(rows); });
+    if (!frame_once(tell)) return false;
     FrameTime time;
     time.wall_ms = watch.milliseconds();
     result.frames.push_back(time);
-    stop_if_interrupted();
   }
+  return true;
+}
+
+bool render_with_oracle(const BakedScene& scene, const TraceParams& params, bool shadows,
+                        const Progress& progress, Frame& frame) {
+  const std::optional<OracleFrame> answers = trace_with_oracle(scene, params, progress);
+  if (!answers) return false;
+  frame = frame_of(*answers, scene, params);
+  return !shadows || cast_oracle_shadows(*answers, scene, params, frame, [&](uint32_t rows) {
+    return progress(params.height + rows);
+  });
 }
 
 }  // namespace
 
-TraceResult trace_scene(const TraceRequest& request, const BakedScene& scene,
-                        const TraceParams& params, const KernelChoice& choice) {
-  using RowsDone = std::function<void(uint32_t)>;
+std::optional<TraceResult> trace_scene(const TraceRequest& request, const BakedScene& scene,
+                                       const TraceParams& params, const KernelChoice& choice,
+                                       const TraceProgress& progress) {
   TraceResult result;
+  bool all = false;
   switch (request.backend) {
     case Backend::vulkan:
-      trace_on_vulkan(request, scene, params, choice, result);
+      all = trace_on_vulkan(request, scene, params, choice, progress, result);
       break;
     case Backend::opengl:
-      trace_on_opengl(request, scene, params, choice, result);
+      all = trace_on_opengl(request, scene, params, choice, progress, result);
       break;
     case Backend::cpu:
-      trace_on_host(request, params.height, "the kernel as C++, single precision", result,
-                    [&](const RowsDone& progress) {
-                      trace_on_cpu(scene, params, choice, result.frame, progress);
-                    });
+      all = trace_on_host(request, params.height, "the kernel as C++, single precision", progress,
+                          result, [&](const Progress& rows) {
+                            return trace_on_cpu(scene, params, choice, result.frame, rows);
+                          });
       break;
     case Backend::oracle:
-      trace_on_host(request, params.height * (choice.shadows ? 2 : 1),
-                    "the oracle, double precision", result, [&](const RowsDone& progress) {
-                      const OracleFrame answers = trace_with_oracle(scene, params, progress);
-                      result.frame = frame_of(answers, scene, params);
-                      if (!choice.shadows) return;
-                      cast_oracle_shadows(answers, scene, params, result.frame,
-                                          [&](uint32_t rows) { progress(params.height + rows); });
-                    });
+      all = trace_on_host(
+          request, params.height * (choice.shadows ? 2 : 1), "the oracle, double precision",
+          progress, result, [&](const Progress& rows) {
+            return render_with_oracle(scene, params, choice.shadows, rows, result.frame);
+          });
       break;
   }
-  return result;
+  return all ? std::optional(std::move(result)) : std::nullopt;
 }
 
 }  // namespace trisect

@@ -1,24 +1,29 @@
 // One call for every back end: a baked scene and trace parameters in, a frame out.
 #pragma once
 
+#include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "app/bake.h"
-#include "app/frame.h"
-#include "app/frame_time.h"
-#include "app/kernel_choice.h"
-#include "app/options.h"
+#include "app/bake/bake.h"
+#include "app/buffers/kernel_choice.h"
+#include "app/dispatch/backend.h"
+#include "app/frame/frame.h"
+#include "app/frame/frame_time.h"
 
 namespace trisect {
 
 struct TraceRequest {
   Backend backend = Backend::vulkan;
   GlPath gl_path = GlPath::compute;
-  std::string device;       // Vulkan's; empty for the best one
+  std::string device;       // Vulkan's: a number or a part of a name; empty for the best one
   bool validation = false;  // Vulkan's
   uint32_t runs = 1;        // frames to time
   bool warm_up = true;      // a frame before them, on devices
+  // Vulkan's: where compiled pipelines are kept for the next time; empty: nowhere.
+  std::optional<std::filesystem::path> pipeline_folder;
 };
 
 struct TraceResult {
@@ -30,9 +35,15 @@ struct TraceResult {
   std::vector<std::string> messages;  // of the validation layer
 };
 
-// Host back ends show their progress. Throws gpu::Error if there is no device or it cannot hold the
-// scene, Interrupted when the user stops it.
-TraceResult trace_scene(const TraceRequest& request, const BakedScene& scene,
-                        const TraceParams& params, const KernelChoice& choice);
+// Told now and then, on the thread that called, what part of a frame is done, from 0 to 1 (0 on
+// devices, which do not say); returns whether to go on. Empty: nobody is told.
+using TraceProgress = std::function<bool(double done)>;
+
+// Nothing if progress said stop. Throws DeviceError if there is no device or it cannot hold the
+// scene. Several threads may call it at a time, but for Backend::opengl, whose context is current
+// in one thread only while it runs.
+std::optional<TraceResult> trace_scene(const TraceRequest& request, const BakedScene& scene,
+                                       const TraceParams& params, const KernelChoice& choice,
+                                       const TraceProgress& progress = {});
 
 }  // namespace trisect

@@ -1,7 +1,7 @@
 #include "app/view/command_line.h"
 
-#include "app/command_options.h"
-#include "app/commands.h"
+#include "app/cli/command_options.h"
+#include "app/view/commands.h"
 
 namespace trisect::view {
 

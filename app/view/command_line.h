@@ -4,8 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "app/options.h"
-#include "app/scene_options.h"
+#include "app/cli/scene_options.h"
+#include "app/view/options.h"
 
 namespace trisect::view {
 

@@ -5,13 +5,11 @@
 #include <chrono>
 #include <utility>
 
-#include "app/accuracy.h"
-#include "app/oracle_tracer.h"
+#include "app/accuracy/accuracy.h"
+#include "app/oracle/oracle_tracer.h"
 
 namespace trisect::view {
 namespace {
-
-struct Stopped {};
 
 float error_at(const BakedScene& scene, const TraceParams& params, uint32_t x, uint32_t y,
                const OracleAnswer& answer, const PixelAovs& aov) {
@@ -53,16 +51,13 @@ void ErrorMeasurement::start(std::shared_ptr<const BakedScene> scene, const Trac
   running_ = std::async(std::launch::async,
                         [this, scene = std::move(scene), params,
                          frame = std::move(frame)]() -> std::optional<ErrorMap> {
-                          try {
-                            const OracleFrame truth =
-                                trace_with_oracle(*scene, params, [this](uint32_t rows) {
-                                  if (stopped_) throw Stopped();
-                                  rows_done_ = rows;
-                                });
-                            return map_of(*scene, params, frame, truth);
-                          } catch (const Stopped&) {
-                            return std::nullopt;
-                          }
+                          const std::optional<OracleFrame> truth =
+                              trace_with_oracle(*scene, params, [this](uint32_t rows) {
+                                rows_done_ = rows;
+                                return !stopped_;
+                              });
+                          if (!truth) return std::nullopt;
+                          return map_of(*scene, params, frame, *truth);
                         });
 }
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "app/bake.h"
-#include "app/frame.h"
+#include "app/bake/bake.h"
+#include "app/frame/frame.h"
 
 namespace trisect::view {
 

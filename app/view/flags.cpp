@@ -10,9 +10,10 @@
 #include <sstream>
 #include <vector>
 
-#include "app/accel.h"
-#include "app/error.h"
-#include "app/scene_options.h"
+#include "app/base/error.h"
+#include "app/cli/load_scene.h"
+#include "app/cli/scene_options.h"
+#include "app/dispatch/accel.h"
 
 namespace trisect::view {
 namespace {
@@ -89,7 +90,7 @@ RenderOptions with_flags(const RenderOptions& base, const std::string& text) {
   }
   parse_scene(scene, options);
   // Whether these go together, whatever the model.
-  chosen_accel(options, Backend::vulkan, 1);
+  chosen_accel(accel_request(options), Backend::vulkan, 1);
   return options;
 }
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/options.h"
+#include "app/cli/options.h"
 
 namespace trisect::view {
 

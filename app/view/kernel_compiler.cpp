@@ -19,7 +19,7 @@
 #include <system_error>
 #include <vector>
 
-#include "app/error.h"
+#include "app/base/error.h"
 
 namespace trisect::view {
 namespace {

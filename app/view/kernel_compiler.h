@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "app/kernel_code.h"
+#include "app/buffers/kernel_code.h"
 
 namespace trisect::view {
 

@@ -3,7 +3,7 @@
 
 #include <glm/glm.hpp>
 
-#include "app/camera.h"
+#include "app/dispatch/camera.h"
 
 namespace trisect::view {
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <filesystem>
 
-#include "app/obj_file.h"
+#include "app/mesh/obj_file.h"
 
 namespace trisect::view {
 namespace {

@@ -9,7 +9,7 @@ namespace trisect::view {
 
 class PanelLayer {
  public:
-  // The window's own callbacks stay: this one's call them. Throws gpu::Error.
+  // The window's own callbacks stay: this one's call them. Throws DeviceError.
   PanelLayer(const gpu::Instance& instance, const gpu::Device& device, const Window& window,
              VkRenderPass render_pass);
   ~PanelLayer();

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/buffer_limits.h"
-#include "app/options.h"
+#include "app/buffers/buffer_limits.h"
+#include "app/cli/options.h"
 
 namespace trisect::view {
 namespace {
@@ -33,14 +33,14 @@ bool Picture::can_hold(uint32_t width, uint32_t height) const {
                         height, choice_.writes_aovs()) >= height;
 }
 
-double Picture::trace(const TraceSettings& settings, const std::function<void()>& between_submits) {
+std::optional<double> Picture::trace(const TraceSettings& settings, const KeepGoing& keep_going) {
   const TraceParams params = make_params(*scene_, settings);
   params_.reset();
   if (!tracer_->holds_at_once(settings.width, settings.height)) {
     tracer_->resize(settings.width, settings.height);
   }
-  const double ms = tracer_->trace(params, between_submits);
-  params_ = params;
+  const std::optional<double> ms = tracer_->trace(params, keep_going);
+  if (ms) params_ = params;
   return ms;
 }
 

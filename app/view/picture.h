@@ -2,14 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 
-#include "app/kernel_choice.h"
-#include "app/kernel_code.h"
-#include "app/trace_settings.h"
-#include "app/vulkan_tracer.h"
+#include "app/buffers/kernel_choice.h"
+#include "app/buffers/kernel_code.h"
+#include "app/dispatch/trace_settings.h"
+#include "app/dispatch/vulkan_tracer.h"
 
 namespace trisect::view {
 
@@ -18,7 +17,7 @@ class Picture {
   explicit Picture(const gpu::Device& device) : device_(device) {}
 
   // What is traced from now on, by which kernels: those in `code`, or null for those that were
-  // built in. Returns whether that is something new. Throws gpu::Error, and goes on with what it
+  // built in. Returns whether that is something new. Throws DeviceError, and goes on with what it
   // had, if the device cannot.
   bool use(const std::shared_ptr<const BakedScene>& scene, const KernelChoice& choice,
            const std::shared_ptr<const KernelCode>& code);
@@ -26,8 +25,8 @@ class Picture {
   // Whether a frame of that size fits into the device's buffers.
   [[nodiscard]] bool can_hold(uint32_t width, uint32_t height) const;
 
-  // Returns milliseconds on the device. What between_submits throws leaves no frame.
-  double trace(const TraceSettings& settings, const std::function<void()>& between_submits);
+  // Returns milliseconds on the device; nothing, and there is no frame, if keep_going said stop.
+  std::optional<double> trace(const TraceSettings& settings, const KeepGoing& keep_going);
 
   // Whether its frames have outputs beside colour.
   [[nodiscard]] bool has_aovs() const { return choice_.aovs; }

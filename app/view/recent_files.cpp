@@ -4,8 +4,8 @@
 #include <fstream>
 #include <system_error>
 
-#include "app/atomic_file.h"
-#include "app/error.h"
+#include "app/base/atomic_file.h"
+#include "app/base/error.h"
 
 namespace trisect::view {
 namespace {

@@ -2,12 +2,12 @@
 
 #include <utility>
 
-#include "app/accel.h"
-#include "app/atomic_file.h"
-#include "app/image_file.h"
-#include "app/load_scene.h"
-#include "app/supersampling.h"
-#include "app/vulkan_tracer.h"
+#include "app/base/atomic_file.h"
+#include "app/cli/load_scene.h"
+#include "app/dispatch/accel.h"
+#include "app/dispatch/vulkan_tracer.h"
+#include "app/frame/supersampling.h"
+#include "app/picture/image_file.h"
 
 namespace trisect::view {
 
@@ -19,7 +19,7 @@ void save_picture(const gpu::Device& device, const Mesh& mesh, const BakedScene&
   VulkanTracer tracer(device, scene, params.width, params.height,
                       {.solver = options.solver,
                        .aovs = format == ImageFormat::exr,
-                       .accel = accel_at_hand(options, scene),
+                       .accel = accel_at_hand(accel_request(options), scene),
                        .shadows = options.shadows});
   Frame frame;
   tracer.render(params, frame);

@@ -5,10 +5,10 @@
 #include <new>
 #include <utility>
 
-#include "app/bvh.h"
-#include "app/cage.h"
-#include "app/mesh_builder.h"
-#include "app/obj_file.h"
+#include "app/bake/bvh.h"
+#include "app/bake/cage.h"
+#include "app/mesh/mesh_builder.h"
+#include "app/mesh/obj_file.h"
 
 namespace trisect::view {
 namespace {

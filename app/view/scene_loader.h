@@ -7,9 +7,9 @@
 #include <string>
 #include <variant>
 
-#include "app/bake.h"
-#include "app/mesh.h"
-#include "app/surface_choice.h"
+#include "app/bake/bake.h"
+#include "app/mesh/mesh.h"
+#include "app/surface/surface_choice.h"
 
 namespace trisect::view {
 

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <utility>
 
-#include "app/error.h"
-#include "app/image_file.h"
-#include "app/options.h"
+#include "app/base/error.h"
+#include "app/cli/options.h"
+#include "app/picture/image_file.h"
 #include "app/view/flags.h"
 #include "app/view/panel.h"
 #include "app/view/window.h"

@@ -4,12 +4,14 @@
 #include <utility>
 #include <vector>
 
-#include "app/accel.h"
-#include "app/atomic_file.h"
-#include "app/commands.h"
-#include "app/error.h"
-#include "app/image_file.h"
-#include "app/pipeline_store.h"
+#include "app/base/atomic_file.h"
+#include "app/base/error.h"
+#include "app/cli/cache_folder.h"
+#include "app/cli/load_scene.h"
+#include "app/dispatch/accel.h"
+#include "app/dispatch/pipeline_store.h"
+#include "app/picture/image_file.h"
+#include "app/view/commands.h"
 #include "app/view/viewer.h"
 
 namespace trisect {
@@ -17,7 +19,7 @@ namespace trisect {
 int view_model(const ViewOptions& options) {
   if (!options.screenshot.empty()) image_format(options.screenshot);
   // What does not go together, whatever the model, is said before a window opens.
-  chosen_accel(options.render, Backend::vulkan, 1);
+  chosen_accel(accel_request(options.render), Backend::vulkan, 1);
   std::vector<view::ScriptStep> script;
   if (!options.script.empty()) script = view::read_script(options.script);
   std::optional<AtomicFile> stats;

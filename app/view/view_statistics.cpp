@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/json_text.h"
-#include "app/statistics.h"
+#include "app/cli/json_text.h"
+#include "app/cli/statistics.h"
 
 namespace trisect::view {
 

@@ -1,4 +1,5 @@
 #include "app/view/viewer.h"
+#include "app/cli/cache_folder.h"
 
 #include <fmt/format.h>
 
@@ -8,16 +9,16 @@
 #include <span>
 #include <utility>
 
-#include "app/accel.h"
-#include "app/error.h"
-#include "app/interrupt.h"
-#include "app/kernels.h"
-#include "app/load_scene.h"
-#include "app/obj_file.h"
-#include "app/pipeline_store.h"
-#include "app/statistics.h"
-#include "app/stopwatch.h"
-#include "app/supersampling.h"
+#include "app/base/error.h"
+#include "app/base/stopwatch.h"
+#include "app/buffers/kernels.h"
+#include "app/cli/interrupt.h"
+#include "app/cli/load_scene.h"
+#include "app/cli/statistics.h"
+#include "app/dispatch/accel.h"
+#include "app/dispatch/pipeline_store.h"
+#include "app/frame/supersampling.h"
+#include "app/mesh/obj_file.h"
 #include "vk/result.h"
 
 namespace trisect::view {
@@ -27,9 +28,6 @@ namespace {
 constexpr double kStill = 0.15;
 // Of the graph in the panel.
 constexpr std::size_t kFramesTold = 120;
-
-// Input came while a picture was refined.
-struct Disturbed {};
 
 double seconds_between(std::chrono::steady_clock::time_point a,
                        std::chrono::steady_clock::time_point b) {
@@ -136,7 +134,7 @@ void Viewer::load() {
   const RenderOptions& render = settings_.render;
   // By itself the way may change with the window's size.
   const bool may_need_tree =
-      render.solver == SOLVER_ROBUST && (!render.accel || goes_by_bvh(render, *render.accel));
+      render.solver == SOLVER_ROBUST && (!render.accel || needs_bvh(*render.accel, render.shadows));
   loader_.ask(
       {render.model, render.crease, {render.surface, render.alpha, render.shell}, may_need_tree});
 }
@@ -194,7 +192,7 @@ KernelChoice Viewer::kernels_wanted(uint32_t width, uint32_t height) const {
   choice.aovs = outputs || choice.counts;
   choice.shadows = render.shadows;
   // The tree may be on its way.
-  choice.accel = accel_at_hand(render, *scene_->scene);
+  choice.accel = accel_at_hand(accel_request(render), *scene_->scene);
   return choice;
 }
 
@@ -240,19 +238,21 @@ uint32_t Viewer::samples_when_still() const {
   return side;
 }
 
-void Viewer::trace_at(Picture& picture, uint32_t width, uint32_t height, bool moving) {
+bool Viewer::trace_at(Picture& picture, uint32_t width, uint32_t height, bool moving) {
   swapchain_.wait();
   const TraceSettings settings =
       settings_of(render_at(width, height), *scene_->mesh, *scene_->scene);
   const Stopwatch watch;
-  picture.trace(settings, [&] {
-    stop_if_interrupted();
-    if (moving) return;
+  const std::optional<double> ms = picture.trace(settings, [&] {
+    if (!not_interrupted()) return false;
+    if (moving) return true;
     window_.wait(0.0);
     const bool script_is_due =
         next_step_ < script_.size() && script_[next_step_].seconds <= since_start();
-    if (window_.is_disturbed() || script_is_due) throw Disturbed();
+    return !window_.is_disturbed() && !script_is_due;
   });
+  stop_if_interrupted();
+  if (!ms) return false;
   trace_ms_ = watch.milliseconds();
   front_ = &picture;
   copied_ = false;
@@ -261,6 +261,7 @@ void Viewer::trace_at(Picture& picture, uint32_t width, uint32_t height, bool mo
   facts_.frame_height = height;
   // The panel tells of it in the next one.
   redraws_ = std::max(redraws_, 2);
+  return true;
 }
 
 // Fewer pixels may go faster another way, which then has kernels and buffers of its own.
@@ -311,23 +312,24 @@ void Viewer::trace() {
       swapchain_.wait();
       const uint32_t side = side_ == 0 ? 1 : most;
       failed_ = now;
-      trace_at(picture_for(now, 1.0), now.width * side, now.height * side, false);
+      if (!trace_at(picture_for(now, 1.0), now.width * side, now.height * side, false)) {
+        failed_.reset();
+        // A moving picture of its own is still there; without one the window keeps what it shows.
+        if (!front_->is_there()) {
+          traced_.reset();
+          keeps_ = true;
+        }
+        return;
+      }
       side_ = side;
     } else {
       return;
     }
     failed_.reset();
     if (side_ == samples_when_still() && now.kernels.counts) count_work();
-  } catch (const Disturbed&) {
-    failed_.reset();
-    // A moving picture of its own is still there; without one the window keeps what it shows.
-    if (!front_->is_there()) {
-      traced_.reset();
-      keeps_ = true;
-    }
   } catch (const UsageError& error) {
     complain(error.what());
-  } catch (const gpu::Error& error) {
+  } catch (const DeviceError& error) {
     if (!traced_ && statistics_.frames == 0) throw;
     complain(error.what());
   }

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "app/options.h"
 #include "app/view/error_map.h"
 #include "app/view/navigator.h"
+#include "app/view/options.h"
 #include "app/view/pacer.h"
 #include "app/view/panel.h"
 #include "app/view/panel_layer.h"
@@ -43,7 +43,7 @@ class Viewer {
   Viewer& operator=(Viewer&&) = delete;
 
   // Until the window is closed or the options say that it ends. Throws InputError if the first
-  // model cannot be loaded or a file that the command line names cannot be written; gpu::Error;
+  // model cannot be loaded or a file that the command line names cannot be written; DeviceError;
   // Interrupted.
   void run();
 
@@ -106,7 +106,8 @@ class Viewer {
   Picture& picture_for(const Shown& shown, double scale);
   [[nodiscard]] Shown shown_now() const;
   [[nodiscard]] uint32_t samples_when_still() const;
-  void trace_at(Picture& picture, uint32_t width, uint32_t height, bool moving);
+  // False if input came meanwhile: there is no new frame then. Not while it moves.
+  bool trace_at(Picture& picture, uint32_t width, uint32_t height, bool moving);
   void trace_moving(const Shown& now);
   [[nodiscard]] ScreenPush screen_push() const;
   [[nodiscard]] double since_start() const;

@@ -9,9 +9,9 @@
 #include <sstream>
 #include <utility>
 
-#include "app/error.h"
-#include "app/interrupt.h"
-#include "app/load_scene.h"
+#include "app/base/error.h"
+#include "app/cli/interrupt.h"
+#include "app/cli/load_scene.h"
 #include "app/view/flags.h"
 #include "app/view/kernel_compiler.h"
 #include "app/view/saved_picture.h"
@@ -282,7 +282,7 @@ void Viewer::measure_error() {
     start_measurement();
   } catch (const UsageError& error) {
     facts_.message = error.what();
-  } catch (const gpu::Error& error) {
+  } catch (const DeviceError& error) {
     facts_.message = error.what();
   }
 }
@@ -304,7 +304,7 @@ void Viewer::start_measurement() {
   VulkanTracer tracer(device_, *scene_->scene, params.width, params.height, choice, kNoLimit,
                       code_.get());
   Frame frame;
-  tracer.render(params, frame, stop_if_interrupted);
+  finished(tracer.render(params, frame, not_interrupted));
   error_of_ = shown_now();
   error_map_ = {};
   facts_.error.clear();

@@ -1,6 +1,7 @@
 #include "app/view/window.h"
 
 #include <utility>
+#include "app/base/error.h"
 
 #include "vk/result.h"
 
@@ -24,8 +25,8 @@ std::string last_error() {
 
 Window::Window(uint32_t width, uint32_t height, const std::string& title) {
   if (glfwInit() != GLFW_TRUE) {
-    throw gpu::NoDevice("trisect view needs a display: " + last_error() +
-                        "; trisect render needs none.");
+    throw NoDevice("trisect view needs a display: " + last_error() +
+                   "; trisect render needs none.");
   }
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
   window_ = glfwCreateWindow(static_cast<int>(width), static_cast<int>(height), title.c_str(),
@@ -34,7 +35,7 @@ Window::Window(uint32_t width, uint32_t height, const std::string& title) {
     const std::string reason =
         window_ == nullptr ? last_error() : "the Vulkan loader knows no surface for this display";
     glfwTerminate();
-    throw gpu::NoDevice("no window could be opened: " + reason + ".");
+    throw NoDevice("no window could be opened: " + reason + ".");
   }
   glfwSetWindowUserPointer(window_, &input_);
   glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int mods) {

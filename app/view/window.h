@@ -31,7 +31,7 @@ struct Input {
 
 class Window {
  public:
-  // Throws gpu::NoDevice if there is no display.
+  // Throws NoDevice if there is no display.
   Window(uint32_t width, uint32_t height, const std::string& title);
   ~Window();
   Window(const Window&) = delete;
@@ -63,7 +63,7 @@ class Window {
 // A window's place where a device shows pictures.
 class Surface {
  public:
-  // Throws gpu::Error.
+  // Throws DeviceError.
   Surface(const gpu::Instance& instance, const Window& window);
   ~Surface() { vkDestroySurfaceKHR(instance_, surface_, nullptr); }
   Surface(const Surface&) = delete;

@@ -1,14 +1,14 @@
 // The robust solver's promises, pixel by pixel against the oracle, and the measure itself.
-#include "app/accuracy.h"
+#include "app/accuracy/accuracy.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/cage.h"
-#include "app/cpu_tracer.h"
-#include "app/oracle_tracer.h"
+#include "app/bake/cage.h"
+#include "app/dispatch/cpu_tracer.h"
+#include "app/oracle/oracle_tracer.h"
 #include "tests/support/gpu.h"
 #include "tests/support/scenes.h"
 
@@ -36,7 +36,7 @@ Measured measure(const char* asset, const SurfaceChoice& choice) {
   measured.scene = bake_with_cages(mesh, choice);
   const TraceSettings settings = robust(mesh, measured.scene);
   measured.params = make_params(measured.scene, settings);
-  measured.truth = trace_with_oracle(measured.scene, measured.params, {});
+  measured.truth = trace_with_oracle(measured.scene, measured.params, {}).value();
   measured.frame = test::trace(measured.scene, settings);
   return measured;
 }

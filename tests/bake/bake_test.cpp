@@ -1,10 +1,10 @@
-#include "app/bake.h"
+#include "app/bake/bake.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "app/error.h"
+#include "app/base/error.h"
 #include "tests/support/scenes.h"
 
 namespace trisect {

@@ -1,14 +1,14 @@
 // The tree over the parts' boxes: complete, conservative, in order.
-#include "app/bvh.h"
+#include "app/bake/bvh.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "app/cage.h"
-#include "app/part_boxes.h"
-#include "app/widen.h"
+#include "app/bake/cage.h"
+#include "app/bake/part_boxes.h"
+#include "app/surface/widen.h"
 #include "tests/support/scenes.h"
 
 namespace trisect {

@@ -1,17 +1,17 @@
 // What the bake promises about parts, and what a camera sees of them, against points of the
 // surface.
-#include "app/cage.h"
+#include "app/bake/cage.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "app/cage_net.h"
-#include "app/interval.h"
-#include "app/kernel_float.h"
-#include "app/surface_double.h"
-#include "app/trace_settings.h"
-#include "app/widen.h"
+#include "app/bake/cage_net.h"
+#include "app/base/interval.h"
+#include "app/dispatch/kernel_float.h"
+#include "app/dispatch/trace_settings.h"
+#include "app/surface/surface_double.h"
+#include "app/surface/widen.h"
 #include "tests/support/scenes.h"
 
 namespace trisect {
@@ -132,26 +132,24 @@ TEST(Cage, HoldsThePart) {
 // The kernel's bounds of a part with a kink, over nodes of all sizes.
 TEST(SphereRange, HoldsSigmaAndItsChanges) {
   std::mt19937_64 random(6);
-  const TraceParams no_frame{};
   double widths = 0.0;
   double seen = 0.0;
   std::size_t nodes = 0;
   std::size_t of_known_gradient = 0;
   const BakedScene scene = caged({"teapot", {SURFACE_SPHERE, 0.0, SHELL_HEIGHT}});
-  in_float::Kernel kernel = in_float::kernel_of(scene, no_frame, {});
-  const in_float::Shape single_shape = kernel.scene_shape();
+  const in_float::Shape single_shape{SURFACE_SPHERE, SHELL_HEIGHT, 0.0F};
   const in_double::Shape shape = shape_of(scene.choice);
   for (const Cage& cage : scene.cages) {
     if (cage.bend != KINKED || cage.skip > 0) continue;
     const Triangle& single = scene.triangles[cage.triangle];
     const in_double::Triangle tri = widen(single);
-    uint path = kernel.WHOLE;
+    uint path = in_float::WHOLE;
     for (int level = 0; level < 9; ++level, path = path << 2U | (random() & 3U)) {
-      const in_float::Node node = kernel.widened(kernel.node_at(cage.node, path));
-      const auto over = kernel.sphere_node(single_shape, single, node);
-      const in_float::SphereRange range = kernel.sphere_range(single_shape, single, over);
+      const in_float::Node node = in_float::widened(in_float::node_at(cage.node, path));
+      const auto over = in_float::sphere_node(single_shape, single, node);
+      const in_float::SphereRange range = in_float::sphere_range(single_shape, single, over);
       ++nodes;
-      if (range.u.y < kernel.UNBOUNDED) ++of_known_gradient;
+      if (range.u.y < in_float::UNBOUNDED) ++of_known_gradient;
       double lo = 1e30;
       double hi = -1e30;
       dvec3 before = dvec3(node.origin) + dvec3(double{node.size} / 3.0);

@@ -1,12 +1,12 @@
 // The bounds are proven in patch_bounds.h; these tests would find a mistake in the proof or in its
 // code.
-#include "app/patch_bounds.h"
+#include "app/bake/patch_bounds.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "app/bake.h"
+#include "app/bake/bake.h"
 #include "tests/support/scenes.h"
 
 namespace trisect {

@@ -1,4 +1,4 @@
-#include "app/interval.h"
+#include "app/base/interval.h"
 
 #include <gtest/gtest.h>
 

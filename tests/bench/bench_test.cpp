@@ -11,6 +11,8 @@
 #include <tuple>
 #include <vector>
 
+#include "app/bake/cage.h"
+#include "app/base/error.h"
 #include "app/bench/contender.h"
 #include "app/bench/document.h"
 #include "app/bench/frame_errors.h"
@@ -18,12 +20,10 @@
 #include "app/bench/sample_check.h"
 #include "app/bench/stability.h"
 #include "app/bench/tessellation.h"
-#include "app/cage.h"
-#include "app/cpu_tracer.h"
-#include "app/error.h"
+#include "app/dispatch/cpu_tracer.h"
+#include "app/dispatch/trace_settings.h"
 #include "app/opengl/context.h"
-#include "app/oracle_tracer.h"
-#include "app/trace_settings.h"
+#include "app/oracle/oracle_tracer.h"
 #include "tests/support/gpu.h"
 #include "tests/support/scenes.h"
 
@@ -196,7 +196,7 @@ TEST(Document, IsMarkdownAndHtml) {
 class FrameErrorsTest : public ::testing::Test {
  protected:
   FrameErrorsTest() {
-    truth_ = trace_with_oracle(scene_, params_, {});
+    truth_ = trace_with_oracle(scene_, params_, {}).value();
     shown_ = frame_of(truth_, scene_, params_);
   }
 
@@ -286,7 +286,7 @@ TEST(OpenglContender, DrawsTheSurface) {
   const opengl::Context context;
   for (const uint surface : {SURFACE_PHONG, SURFACE_SPHERE}) {
     const auto [scene, params] = seen("torus", surface, 67, 51);
-    const OracleFrame truth = trace_with_oracle(scene, params, {});
+    const OracleFrame truth = trace_with_oracle(scene, params, {}).value();
     const Frame shown = frame_of(truth, scene, params);
     Frame frame;
     on_opengl(scene, params, 32)->inspect(frame);

@@ -1,5 +1,5 @@
 // The compiled kernel, read back with SPIRV-Cross: its buffers lie as C++ lays them out, and its
-// bindings are those that app/kernels.h gives the Vulkan layer.
+// bindings are those that app/buffers/kernels.h gives the Vulkan layer.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 #include <spirv_cross/spirv_cross.hpp>
 #include <string>
 
-#include "app/kernels.h"
+#include "app/buffers/kernels.h"
 
 namespace trisect {
 namespace {

@@ -1,8 +1,8 @@
-#include "app/options.h"
+#include "app/cli/options.h"
 
 #include <gtest/gtest.h>
 
-#include "app/error.h"
+#include "app/base/error.h"
 
 namespace trisect {
 namespace {

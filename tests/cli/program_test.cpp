@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "app/image_file.h"
+#include "app/frame/srgb.h"
+#include "app/picture/image_file.h"
 #include "tests/support/exr_reader.h"
 #include "tests/support/program.h"
 

@@ -1,4 +1,4 @@
-#include "app/statistics.h"
+#include "app/cli/statistics.h"
 
 #include <gtest/gtest.h>
 

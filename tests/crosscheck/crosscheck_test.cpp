@@ -6,12 +6,12 @@
 #include <memory>
 #include <string>
 
-#include "app/cage.h"
-#include "app/commands.h"
-#include "app/frame_comparison.h"
+#include "app/bake/cage.h"
+#include "app/cli/commands.h"
+#include "app/crosscheck/frame_comparison.h"
+#include "app/dispatch/vulkan_tracer.h"
 #include "app/opengl/context.h"
 #include "app/opengl/tracer.h"
-#include "app/vulkan_tracer.h"
 #include "tests/support/gpu.h"
 #include "tests/support/scenes.h"
 #include "vk/result.h"

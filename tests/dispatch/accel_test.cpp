@@ -4,11 +4,11 @@
 #include <cstring>
 #include <vector>
 
-#include "app/accel.h"
-#include "app/bvh.h"
-#include "app/cage.h"
-#include "app/hard_scenes.h"
-#include "app/vulkan_tracer.h"
+#include "app/bake/bvh.h"
+#include "app/bake/cage.h"
+#include "app/dispatch/accel.h"
+#include "app/dispatch/vulkan_tracer.h"
+#include "app/stress/hard_scenes.h"
 #include "tests/support/gpu.h"
 #include "tests/support/scenes.h"
 #include "vk/result.h"

@@ -1,11 +1,11 @@
-#include "app/camera.h"
+#include "app/dispatch/camera.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "app/error.h"
-#include "app/trace_settings.h"
+#include "app/base/error.h"
+#include "app/dispatch/trace_settings.h"
 #include "tests/support/scenes.h"
 
 namespace trisect {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "app/kernels.h"
-#include "app/pipeline_store.h"
+#include "app/buffers/kernels.h"
+#include "app/dispatch/pipeline_store.h"
 #include "tests/support/file_content.h"
 #include "tests/support/gpu.h"
 #include "tests/support/run_program.h"

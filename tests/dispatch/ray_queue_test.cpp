@@ -5,10 +5,10 @@
 #include <cstring>
 #include <random>
 
-#include "app/bvh.h"
-#include "app/cage.h"
-#include "app/hard_scenes.h"
-#include "app/ray_caster.h"
+#include "app/bake/bvh.h"
+#include "app/bake/cage.h"
+#include "app/dispatch/ray_caster.h"
+#include "app/stress/hard_scenes.h"
 #include "tests/support/gpu.h"
 #include "tests/support/scenes.h"
 

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "app/cage.h"
-#include "app/kernel_float.h"
-#include "app/oracle_tracer.h"
-#include "app/trace_settings.h"
+#include "app/bake/cage.h"
+#include "app/dispatch/kernel_float.h"
+#include "app/dispatch/trace_settings.h"
+#include "app/oracle/oracle_tracer.h"
 #include "tests/support/scenes.h"
 
 namespace trisect {

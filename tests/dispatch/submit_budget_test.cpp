@@ -1,4 +1,4 @@
-#include "app/submit_budget.h"
+#include "app/dispatch/submit_budget.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "app/supersampling.h"
+#include "app/frame/supersampling.h"
 
 #include <gtest/gtest.h>
 
-#include "app/image_file.h"
+#include "app/picture/image_file.h"
 
 namespace trisect {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <map>
 
-#include "app/mesh_builder.h"
+#include "app/mesh/mesh_builder.h"
 #include "tests/support/file_content.h"
 #include "tests/support/scenes.h"
 

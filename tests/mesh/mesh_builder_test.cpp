@@ -1,10 +1,10 @@
-#include "app/mesh_builder.h"
+#include "app/mesh/mesh_builder.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "app/error.h"
+#include "app/base/error.h"
 
 namespace trisect {
 namespace {

@@ -1,10 +1,10 @@
-#include "app/obj_file.h"
+#include "app/mesh/obj_file.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "app/error.h"
+#include "app/base/error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace trisect {

@@ -1,4 +1,4 @@
-#include "app/polygon.h"
+#include "app/mesh/polygon.h"
 
 #include <gtest/gtest.h>
 

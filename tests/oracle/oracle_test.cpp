@@ -1,5 +1,5 @@
 // The oracle against closed forms and brute force that share none of its search.
-#include "app/oracle.h"
+#include "app/oracle/oracle.h"
 
 #include <gtest/gtest.h>
 
@@ -373,8 +373,11 @@ TEST(OracleFrame, EqualsSingleRays) {
   const Oracle oracle(bake(test::load_asset("sphere-20"), {}));
   const auto motion = [](const OracleRay&) { return 1e-4; };
   uint32_t rows = 0;
-  const OracleFrame frame =
-      oracle_frame(oracle, 32, 24, pixel_ray, motion, [&](uint32_t done) { rows = done; });
+  const auto count = [&](uint32_t done) {
+    rows = done;
+    return true;
+  };
+  const OracleFrame frame = oracle_frame(oracle, 32, 24, pixel_ray, motion, count).value();
   EXPECT_EQ(rows, 24U);
   ASSERT_EQ(frame.pixels.size(), 32U * 24U);
   int hits = 0;
@@ -392,7 +395,7 @@ TEST(OracleFrame, EqualsSingleRays) {
   EXPECT_GT(hits, 100);
 }
 
-TEST(OracleFrame, StopsWhenProgressOrARayThrows) {
+TEST(OracleFrame, StopsWhenProgressSaysSoOrARayThrows) {
   const Oracle oracle(bake(test::load_asset("sphere-20"), {}));
   const auto motion = [](const OracleRay&) { return 1e-6; };
   std::atomic<uint32_t> last_row = 0;
@@ -400,12 +403,14 @@ TEST(OracleFrame, StopsWhenProgressOrARayThrows) {
     last_row = y;
     return pixel_ray(x % 32, y % 24);
   };
-  const auto interrupt = [](uint32_t) { throw std::runtime_error("interrupted"); };
   // 3,000,000 rows would take minutes.
-  EXPECT_THROW(oracle_frame(oracle, 1, 3'000'000, ray, motion, interrupt), std::runtime_error);
+  const auto stop = [](uint32_t) { return false; };
+  EXPECT_FALSE(oracle_frame(oracle, 1, 3'000'000, ray, motion, stop));
   EXPECT_LT(last_row, 2'900'000U);
+  const auto interrupt = [](uint32_t) -> bool { throw std::runtime_error("interrupted"); };
+  EXPECT_THROW(oracle_frame(oracle, 1, 3'000'000, ray, motion, interrupt), std::runtime_error);
   const auto broken = [](uint32_t, uint32_t) -> OracleRay { throw std::out_of_range("ray"); };
-  EXPECT_THROW(oracle_frame(oracle, 8, 8, broken, motion, [](uint32_t) {}), std::out_of_range);
+  EXPECT_THROW(oracle_frame(oracle, 8, 8, broken, motion, {}), std::out_of_range);
 }
 
 }  // namespace

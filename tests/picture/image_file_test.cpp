@@ -1,4 +1,5 @@
-#include "app/image_file.h"
+#include "app/picture/image_file.h"
+#include "app/frame/srgb.h"
 
 #include <gtest/gtest.h>
 #include <png.h>
@@ -6,7 +7,7 @@
 
 #include <fstream>
 
-#include "app/error.h"
+#include "app/base/error.h"
 #include "tests/support/exr_reader.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,5 +1,5 @@
 // The catalogue of hard cases, and its judge.
-#include "app/hard_cases.h"
+#include "app/stress/hard_cases.h"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <limits>
 #include <set>
 
-#include "app/cage.h"
-#include "app/hard_backend.h"
-#include "app/hard_judge.h"
-#include "app/hard_scenes.h"
-#include "app/trace_settings.h"
+#include "app/bake/cage.h"
+#include "app/dispatch/trace_settings.h"
+#include "app/stress/hard_backend.h"
+#include "app/stress/hard_judge.h"
+#include "app/stress/hard_scenes.h"
 #include "tests/support/gpu.h"
 
 namespace trisect {

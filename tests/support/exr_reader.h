@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/frame.h"
+#include "app/frame/frame.h"
 
 namespace trisect::test {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/quantiles.h"
-#include "app/raise.h"
+#include "app/base/quantiles.h"
+#include "app/base/raise.h"
 
 namespace trisect::test {
 

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "app/frame.h"
+#include "app/frame/frame.h"
 
 namespace trisect::test {
 

@@ -1,7 +1,7 @@
 #include "tests/support/gpu.h"
 
-#include "app/cage.h"
-#include "app/vulkan_tracer.h"
+#include "app/bake/cage.h"
+#include "app/dispatch/vulkan_tracer.h"
 
 namespace trisect::test {
 

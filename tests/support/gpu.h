@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "app/bake.h"
-#include "app/frame.h"
-#include "app/trace_settings.h"
+#include "app/bake/bake.h"
+#include "app/dispatch/trace_settings.h"
+#include "app/frame/frame.h"
 #include "vk/device.h"
 
 namespace trisect::test {

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "app/mesh_builder.h"
+#include "app/mesh/mesh_builder.h"
 
 namespace trisect::test {
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "app/bake.h"
-#include "app/mesh.h"
-#include "app/surface_double.h"
-#include "app/widen.h"
+#include "app/bake/bake.h"
+#include "app/mesh/mesh.h"
+#include "app/surface/surface_double.h"
+#include "app/surface/widen.h"
 
 namespace trisect::test {
 

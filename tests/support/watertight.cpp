@@ -7,11 +7,11 @@
 #include <random>
 #include <vector>
 
-#include "app/bvh.h"
-#include "app/cage.h"
-#include "app/oracle.h"
-#include "app/ray_caster.h"
-#include "app/trace_settings.h"
+#include "app/bake/bvh.h"
+#include "app/bake/cage.h"
+#include "app/dispatch/ray_caster.h"
+#include "app/dispatch/trace_settings.h"
+#include "app/oracle/oracle.h"
 #include "tests/support/gpu.h"
 #include "tests/support/scenes.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "app/bake.h"
-#include "app/surface_double.h"
+#include "app/bake/bake.h"
+#include "app/surface/surface_double.h"
 #include "tests/support/scenes.h"
 
 namespace trisect {

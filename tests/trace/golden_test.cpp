@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/image_file.h"
+#include "app/frame/srgb.h"
+#include "app/picture/image_file.h"
 #include "tests/support/exr_reader.h"
 #include "tests/support/frame_difference.h"
 #include "tests/support/gpu.h"

@@ -9,14 +9,14 @@
 #include <string>
 #include <utility>
 
-#include "app/bvh.h"
-#include "app/cage.h"
-#include "app/cpu_tracer.h"
-#include "app/mesh_builder.h"
-#include "app/obj_file.h"
-#include "app/options.h"
-#include "app/oracle_tracer.h"
-#include "app/vulkan_tracer.h"
+#include "app/bake/bvh.h"
+#include "app/bake/cage.h"
+#include "app/cli/options.h"
+#include "app/dispatch/cpu_tracer.h"
+#include "app/dispatch/vulkan_tracer.h"
+#include "app/mesh/mesh_builder.h"
+#include "app/mesh/obj_file.h"
+#include "app/oracle/oracle_tracer.h"
 #include "tests/support/frame_difference.h"
 #include "tests/support/gpu.h"
 #include "tests/support/scenes.h"
@@ -96,7 +96,7 @@ TEST_F(Shadows, AreThoseOfTheListByEveryWay) {
     EXPECT_TRUE(same_colors(list, trace(lit, with_shadows(Accel::tiles)))) << what;
     EXPECT_TRUE(same_colors(list, trace(lit, with_shadows(Accel::bvh)))) << what;
     Frame cpu;
-    trace_on_cpu(lit.scene, lit.params, with_shadows(Accel::list), cpu, [](uint32_t) {});
+    trace_on_cpu(lit.scene, lit.params, with_shadows(Accel::list), cpu);
     EXPECT_EQ(count_different(cpu, list), 0U) << what;
   }
 }

@@ -3,11 +3,11 @@
 
 #include <cmath>
 
-#include "app/accel.h"
-#include "app/bvh.h"
-#include "app/cage.h"
-#include "app/options.h"
-#include "app/vulkan_tracer.h"
+#include "app/bake/bvh.h"
+#include "app/bake/cage.h"
+#include "app/cli/options.h"
+#include "app/dispatch/accel.h"
+#include "app/dispatch/vulkan_tracer.h"
 #include "tests/support/frame_difference.h"
 #include "tests/support/gpu.h"
 #include "tests/support/scenes.h"
@@ -264,7 +264,7 @@ TEST_F(Trace, FramesDoNotDependOnTheirTiling) {
   Frame first;
   Frame second;
   int submits = 0;
-  tracer.render(params, first, [&] { ++submits; });
+  tracer.render(params, first, [&] { return ++submits > 0; });
   EXPECT_GT(submits, 1) << "the first frame feels its way";
   // By now the tracer knows the cost of a workgroup, and cuts the image elsewhere.
   tracer.render(params, second);
@@ -313,9 +313,13 @@ TEST_F(Trace, StopsBetweenTwoSubmits) {
   const TraceSettings settings = test::framed(mesh, scene, 400, 300, 10);
   VulkanTracer tracer(test::validated_device(), scene, 400, 300, {SOLVER_BISECT, false});
   Frame frame;
-  EXPECT_THROW(
-      tracer.render(make_params(scene, settings), frame, [] { throw std::runtime_error("stop"); }),
-      std::runtime_error);
+  int submits = 0;
+  EXPECT_FALSE(tracer.render(make_params(scene, settings), frame, [&] { return ++submits < 2; }));
+  EXPECT_EQ(submits, 2);
+  // What the caller throws comes through.
+  EXPECT_THROW(tracer.render(make_params(scene, settings), frame,
+                             []() -> bool { throw std::runtime_error("stop"); }),
+               std::runtime_error);
   // And goes on as if nothing had been.
   tracer.render(make_params(scene, settings), frame);
   EXPECT_GT(frame.hits(), 10000U);
@@ -397,9 +401,7 @@ TEST_F(Trace, CountsTheBytesThatRaysRead) {
                         {.solver = solver, .aovs = true, .counts = true, .accel = accel});
     Frame frame;
     // One that is stopped counts for nothing.
-    struct Stop {};
-    const auto stop = [] { throw Stop(); };
-    EXPECT_THROW(tracer.render(params, frame, stop), Stop);
+    EXPECT_FALSE(tracer.render(params, frame, [] { return false; }));
     tracer.render(params, frame);
     return frame.bytes_read;
   };

@@ -9,7 +9,7 @@
 #include <random>
 #include <string>
 
-#include "app/error.h"
+#include "app/base/error.h"
 
 namespace trisect::view {
 namespace {

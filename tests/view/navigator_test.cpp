@@ -5,7 +5,7 @@
 #include <fstream>
 #include <glm/glm.hpp>
 
-#include "app/error.h"
+#include "app/base/error.h"
 #include "app/view/navigator.h"
 #include "app/view/pacer.h"
 #include "app/view/script.h"

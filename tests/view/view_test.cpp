@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/image_reader.h"
+#include "app/picture/image_reader.h"
 #include "tests/support/file_content.h"
 #include "tests/support/frame_difference.h"
 #include "tests/support/run_program.h"

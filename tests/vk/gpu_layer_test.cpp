@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "app/kernels.h"
+#include "app/buffers/kernels.h"
 #include "tests/support/gpu.h"
 #include "vk/commands.h"
 #include "vk/result.h"

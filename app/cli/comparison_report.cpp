@@ -1,14 +1,34 @@
-#include "app/comparison_report.h"
+#include "app/cli/comparison_report.h"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "app/frame_comparison.h"
-#include "app/json_text.h"
+#include "app/cli/json_text.h"
+#include "app/crosscheck/frame_comparison.h"
 
 namespace trisect {
+namespace {
+
+nlohmann::ordered_json to_json(const FrameComparison& c) {
+  nlohmann::ordered_json json{
+      {"pixels", c.pixels}, {"hits", c.hits}, {"hit_mismatches", c.hit_mismatches}};
+  if (c.depth) {
+    json["patch_mismatches"] = c.depth->patch_mismatches;
+    json["z_pixels"] = c.depth->pixels;
+    json["z_bit_equal"] = c.depth->bit_equal;
+    json["z_ulp"] = json_of(c.depth->ulp);
+    json["normal_degrees"] = json_of(c.depth->normal_degrees);
+  }
+  json["color_rmse"] = c.color_rmse;
+  json["color_max"] = c.color_max;
+  // JSON knows no infinity: null.
+  json["psnr"] = c.psnr;
+  return json;
+}
+
+}  // namespace
 
 nlohmann::ordered_json report_pair(const std::string& name_a, const Frame& a,
                                    const std::string& name_b, const Frame& b,

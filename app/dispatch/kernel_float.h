@@ -4,20 +4,17 @@
 
 #include <glm/glm.hpp>
 
-#include "app/bake.h"
-#include "app/kernel_choice.h"
-#include "app/shared.h"
+#include "app/bake/bake.h"
+#include "app/buffers/kernel_choice.h"
+#include "app/surface/shared.h"
+#include "app/surface/surface_float.h"
 
 namespace trisect::in_float {
-
-using namespace glm;  // NOLINT(google-build-using-namespace): GLSL's own function names
 
 #define real float
 #define EXACT
 #define OUT(T) T&
 #define INOUT(T) T&
-#include "shaders/shape.glsl"
-#include "shaders/solver_types.glsl"
 
 struct Kernel {
   const TraceParams& params;
@@ -32,20 +29,7 @@ struct Kernel {
   bool KINKS;
   bool SHADOWS;
 
-#include "shaders/polar_angle.glsl"
-// Vectors need the angle.
-#include "shaders/linear.glsl"
-#include "shaders/surface.glsl"
-#include "shaders/thesis_field.glsl"
-// The bisection needs the fields above, the solver the cages, the trace them all.
-#include "shaders/bisect.glsl"
-#include "shaders/cage.glsl"
-// The order is the kernel's.
 #include "shaders/rays.glsl"
-// What bounds a part with a kink.
-#include "shaders/sphere_range.glsl"
-// The solver, then.
-#include "shaders/robust.glsl"
 #include "shaders/shading.glsl"
 // Here a ray's tile means nothing.
 #pragma GCC diagnostic push
@@ -68,8 +52,8 @@ struct Kernel {
 #undef INOUT
 
 // The kernel that a back end makes of the same scene and choice, for what a camera sees: SHADOWS is
-// false. Keeps references to both of the
-// first two. Each thread needs a copy: GLSL knows no const functions.
+// false. Keeps references to both of the first two. Each thread needs a copy: GLSL knows no const
+// functions.
 Kernel kernel_of(const BakedScene& scene, const TraceParams& params, const KernelChoice& choice);
 
 }  // namespace trisect::in_float

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "app/atomic_file.h"
-#include "app/frame.h"
-#include "app/image_file.h"
-#include "app/tolerance.h"
+#include "app/base/atomic_file.h"
+#include "app/crosscheck/tolerance.h"
+#include "app/frame/frame.h"
+#include "app/picture/image_file.h"
 
 namespace trisect {
 

@@ -1,6 +1,6 @@
-#include "app/kernel_float.h"
+#include "app/dispatch/kernel_float.h"
 
-#include "app/cage.h"
+#include "app/bake/cage.h"
 
 namespace trisect::in_float {
 

@@ -1,4 +1,4 @@
-#include "app/progress.h"
+#include "app/cli/progress_line.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -7,21 +7,22 @@
 #include <cstdio>
 #include <utility>
 
-#include "app/interrupt.h"
+#include "app/cli/interrupt.h"
 
 namespace trisect {
 
-Progress::Progress(std::string step, uint64_t total) : step_(std::move(step)), total_(total) {}
+ProgressLine::ProgressLine(std::string step, uint64_t total)
+    : step_(std::move(step)), total_(total) {}
 
-Progress::~Progress() {
+ProgressLine::~ProgressLine() {
   if (shown_) std::fputs("\r\033[K", stderr);
 }
 
-void Progress::show(uint64_t done) {
-  stop_if_interrupted();
+bool ProgressLine::show(uint64_t done) {
+  if (!not_interrupted()) return false;
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  if (seconds < 1.0 || isatty(STDERR_FILENO) == 0) return;
+  if (seconds < 1.0 || isatty(STDERR_FILENO) == 0) return true;
   const double part =
       static_cast<double>(done) / static_cast<double>(std::max<uint64_t>(total_, 1));
   constexpr int width = 30;
@@ -30,6 +31,7 @@ void Progress::show(uint64_t done) {
   std::fputs(fmt::format("\r{} [{}] {:3.0f}%", step_, bar, part * 100.0).c_str(), stderr);
   std::fflush(stderr);
   shown_ = true;
+  return true;
 }
 
 BusyLine::BusyLine(std::string step) : step_(std::move(step)) {

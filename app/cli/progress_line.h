@@ -12,18 +12,18 @@ namespace trisect {
 
 // Nothing is shown of a step that takes less than a second, and nothing at all where standard error
 // is not a terminal.
-class Progress {
+class ProgressLine {
  public:
-  Progress(std::string step, uint64_t total);
+  ProgressLine(std::string step, uint64_t total);
   // Wipes the line.
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-  Progress(Progress&&) = delete;
-  Progress& operator=(Progress&&) = delete;
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  ProgressLine(ProgressLine&&) = delete;
+  ProgressLine& operator=(ProgressLine&&) = delete;
 
-  // done: of the total. Throws Interrupted if the user asked for it.
-  void show(uint64_t done);
+  // done: of the total. Returns not_interrupted(): what long steps of the library want to know.
+  bool show(uint64_t done);
 
  private:
   std::string step_;

@@ -1,0 +1,52 @@
+// The command line's values for `trisect bench`, parsed.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/surface/shared.h"
+
+namespace trisect {
+
+// What commands have that time frames of models.
+struct MeasuredModels {
+  std::vector<std::string> models;
+  std::vector<uint> surfaces{SURFACE_PHONG, SURFACE_SPHERE};
+  uint32_t width = 400;
+  uint32_t height = 300;
+  uint32_t runs = 5;
+  std::string device;
+};
+
+struct BenchOptions : MeasuredModels {
+  BenchOptions() {
+    width = 800;
+    height = 600;
+  }
+
+  // That Embree's flat triangles may be off the surface, over the scene's radius.
+  double error = 1e-6;
+  std::string json;
+};
+
+struct ParetoOptions : MeasuredModels {
+  std::vector<uint32_t> ranks{4, 6, 8, 10, 12, 14, 18, 24, 30};  // of the bisection; 10 among them
+  std::vector<uint32_t> divisions{1, 2, 4, 8, 16, 32, 64};       // of flat triangles' edges
+  // Flat triangles are tried as fine as this error asks for, too; 0: they are not.
+  double finest_error = 1e-6;
+  std::string output;  // a folder
+  // What `trisect hardcases --json` wrote, for the report to show; empty: nothing.
+  std::string hardcases;
+};
+
+struct AblationOptions : MeasuredModels {
+  std::string output;  // a folder
+};
+
+struct StabilityOptions {
+  uint32_t rays = 100;  // for every value of what is varied
+  std::string output;   // a folder
+};
+
+}  // namespace trisect
