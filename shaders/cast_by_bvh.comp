@@ -10,7 +10,7 @@ layout(local_size_x = CAST_SIZE) in;
 
 #include "cast_buffers.glsl"
 #include "rays.glsl"
-#include "bvh_parts.glsl"
+#include "bvh_candidates.glsl"
 #include "trace.glsl"
 #include "queue.glsl"
-#include "cast_walks.glsl"
+#include "cast_main.glsl"

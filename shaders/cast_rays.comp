@@ -9,7 +9,7 @@ layout(local_size_x = CAST_SIZE) in;
 
 #include "cast_buffers.glsl"
 #include "rays.glsl"
-#include "every_part.glsl"
+#include "every_candidate.glsl"
 #include "trace.glsl"
 #include "queue.glsl"
-#include "cast_walks.glsl"
+#include "cast_main.glsl"

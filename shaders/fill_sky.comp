@@ -12,7 +12,7 @@ layout(std430, binding = BINDING_TILE_ORDER) writeonly restrict buffer TileOrder
 layout(std430, binding = BINDING_TILES_SEEN) restrict buffer TilesSeenBlock { uint tiles_seen; };
 
 #include "rays.glsl"
-#include "tile_parts.glsl"
+#include "tile_candidates.glsl"
 #include "trace.glsl"
 #include "write_pixel.glsl"
 

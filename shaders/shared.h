@@ -1,9 +1,10 @@
 // What C++ and GLSL share: buffer layouts, binding numbers, constants. Declared here, once.
 //
-// This file is included by the shaders and, through app/surface/shared.h, by C++ (inside a namespace in
-// which vec4 and uint are GLM's; there is no include guard because each scalar type gets a
-// namespace of its own). Only vec4 and 4-byte scalars in groups of four appear, so std140, std430
-// and C++ agree on every offset; tests/layout_test.cpp proves it against the compiled SPIR-V.
+// This file is included by the shaders and, through app/surface/shared.h, by C++ (inside a
+// namespace in which vec4 and uint are GLM's; there is no include guard because each scalar type
+// gets a namespace of its own). Only vec4 and 4-byte scalars in groups of four appear, so std140,
+// std430 and C++ agree on every offset; tests/layout_test.cpp proves it against the compiled
+// SPIR-V.
 
 // A baked triangle, 192 bytes: the structure of the thesis, member for member.
 struct Triangle {

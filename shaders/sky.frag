@@ -6,7 +6,7 @@
 #include "solvers.glsl"
 #include "frame_buffers.glsl"
 #include "rays.glsl"
-#include "every_part.glsl"
+#include "every_candidate.glsl"
 #include "trace.glsl"
 #include "fragment_outputs.glsl"
 

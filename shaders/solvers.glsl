@@ -6,7 +6,7 @@
 #include "surface.glsl"
 #include "thesis_field.glsl"
 #include "bisect.glsl"
-#include "cage.glsl"
+#include "subpatch_bounds.glsl"
 #include "sphere_range.glsl"
 #include "robust.glsl"
 #include "shading.glsl"

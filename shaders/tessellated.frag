@@ -11,7 +11,7 @@ in vec3 from_eye;
 flat in uint triangle;
 
 #include "rays.glsl"
-#include "every_part.glsl"
+#include "every_candidate.glsl"
 #include "trace.glsl"
 #include "fragment_outputs.glsl"
 

@@ -17,7 +17,7 @@ out vec3 from_eye;
 flat out uint triangle;
 
 #include "rays.glsl"
-#include "every_part.glsl"
+#include "every_candidate.glsl"
 #include "trace.glsl"
 
 void main() {

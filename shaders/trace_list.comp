@@ -9,8 +9,8 @@ layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 
 #include "frame_buffers.glsl"
 #include "rays.glsl"
-#include "every_part.glsl"
+#include "every_candidate.glsl"
 #include "trace.glsl"
 #include "write_pixel.glsl"
 #include "queue.glsl"
-#include "trace_walks.glsl"
+#include "trace_main.glsl"

@@ -11,7 +11,7 @@ in vec3 to_near;
 in vec2 across;
 
 #include "rays.glsl"
-#include "every_part.glsl"
+#include "every_candidate.glsl"
 #include "trace.glsl"
 #include "queue.glsl"
 #include "fragment_outputs.glsl"

@@ -16,11 +16,11 @@ layout(local_size_x = TILE_SIZE * TILE_SIZE) in;
 #include "frame_buffers.glsl"
 
 #include "rays.glsl"
-#include "bvh_parts.glsl"
+#include "bvh_candidates.glsl"
 #include "trace.glsl"
 #include "write_pixel.glsl"
 #include "queue.glsl"
-#include "meet_quickly.glsl"
+#include "intersect_quickly.glsl"
 #include "packets.glsl"
 
 // One part, all rays of the subgroup.

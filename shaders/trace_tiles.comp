@@ -14,12 +14,12 @@ layout(local_size_x = TILE_SIZE * TILE_SIZE) in;
 layout(std430, binding = BINDING_VIEW_PARTS) readonly restrict buffer ViewPartsBlock { vec4 view_words[]; };
 
 #include "rays.glsl"
-#include "tile_parts.glsl"
+#include "tile_candidates.glsl"
 #include "trace.glsl"
 #include "write_pixel.glsl"
 #include "queue.glsl"
-#include "meet_quickly.glsl"
-#include "may_see.glsl"
+#include "intersect_quickly.glsl"
+#include "overlaps_rect.glsl"
 
 layout(std430, binding = BINDING_TILE_ORDER) readonly restrict buffer TileOrderBlock { uint tile_order[]; };
 

@@ -9,8 +9,8 @@ layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 
 #include "frame_buffers.glsl"
 #include "rays.glsl"
-#include "tile_parts.glsl"
+#include "tile_candidates.glsl"
 #include "trace.glsl"
 #include "write_pixel.glsl"
 #include "queue.glsl"
-#include "trace_walks.glsl"
+#include "trace_main.glsl"

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "app/bake/part_boxes.h"
+#include "app/bake/subpatch_boxes.h"
 #include "app/base/error.h"
 
 namespace trisect {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/bench/field.h"
+#include "app/bench/comparison.h"
 #include "app/bench/options.h"
 #include "vk/device.h"
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <utility>
 
-#include "app/bake/cage.h"
-#include "app/bench/field.h"
+#include "app/bake/subpatch_bounds.h"
+#include "app/bench/comparison.h"
 #include "app/cli/progress_line.h"
 
 namespace trisect::bench {

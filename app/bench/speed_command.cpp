@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/bake/bvh.h"
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 #include "app/base/atomic_file.h"
 #include "app/base/error.h"
 #include "app/base/stopwatch.h"

@@ -8,14 +8,14 @@
 #include <utility>
 
 #include "app/bake/bake.h"
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/progress_line.h"
 #include "app/dispatch/cpu_tracer.h"
 #include "app/dispatch/trace_settings.h"
 #include "app/oracle/oracle.h"
-#include "app/stress/hard_judge.h"
-#include "app/stress/hard_scenes.h"
+#include "app/stress/stress_judge.h"
+#include "app/stress/stress_scenes.h"
 
 namespace trisect::bench {
 namespace {

@@ -6,11 +6,12 @@ namespace trisect {
 namespace {
 
 // Written at build time: arrays of SPIR-V words.
-#include "bin_parts.spv.h"
+#include "bin_subpatches.spv.h"
 #include "cast_by_bvh.spv.h"
 #include "cast_rays.spv.h"
+#include "clear_image.spv.h"
 #include "fill_sky.spv.h"
-#include "floor.spv.h"
+#include "project_subpatches.spv.h"
 #include "screen_frag.spv.h"
 #include "screen_vert.spv.h"
 #include "trace_bvh.spv.h"
@@ -21,7 +22,6 @@ namespace {
 #include "trace_query.spv.h"
 #include "trace_tiles.spv.h"
 #include "trace_undecided.spv.h"
-#include "view_parts.spv.h"
 // Strings of GLSL.
 #include "full_screen.vert.glsl.h"
 #include "sky.frag.glsl.h"
@@ -35,8 +35,8 @@ namespace {
 }  // namespace
 
 const std::span<const uint32_t> kTraceListSpirv(trace_list_spirv);
-const std::span<const uint32_t> kViewPartsSpirv(view_parts_spirv);
-const std::span<const uint32_t> kBinPartsSpirv(bin_parts_spirv);
+const std::span<const uint32_t> kViewPartsSpirv(project_subpatches_spirv);
+const std::span<const uint32_t> kBinPartsSpirv(bin_subpatches_spirv);
 const std::span<const uint32_t> kFillSkySpirv(fill_sky_spirv);
 const std::span<const uint32_t> kTraceTilesSpirv(trace_tiles_spirv);
 const std::span<const uint32_t> kTraceUndecidedSpirv(trace_undecided_spirv);
@@ -45,7 +45,7 @@ const std::span<const uint32_t> kTracePacketsAtSpirv(trace_packets_at_spirv);
 const std::span<const uint32_t> kTraceBvhSpirv(trace_bvh_spirv);
 const std::span<const uint32_t> kTraceBvhAtSpirv(trace_bvh_at_spirv);
 const std::span<const uint32_t> kTraceQuerySpirv(trace_query_spirv);
-const std::span<const uint32_t> kFloorSpirv(floor_spirv);
+const std::span<const uint32_t> kFloorSpirv(clear_image_spirv);
 const std::span<const uint32_t> kScreenVertSpirv(screen_vert_spirv);
 const std::span<const uint32_t> kScreenFragSpirv(screen_frag_spirv);
 const std::span<const uint32_t> kCastRaysSpirv(cast_rays_spirv);

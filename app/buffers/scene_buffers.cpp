@@ -4,7 +4,7 @@
 #include <cstring>
 #include <span>
 
-#include "app/bake/part_boxes.h"
+#include "app/bake/subpatch_boxes.h"
 #include "app/buffers/buffer_limits.h"
 
 namespace trisect {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/bake/bake.h"
-#include "vk/box_structure.h"
+#include "vk/aabb_acceleration_structure.h"
 #include "vk/buffer.h"
 #include "vk/commands.h"
 

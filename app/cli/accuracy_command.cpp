@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/accuracy/accuracy.h"
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 #include "app/base/atomic_file.h"
 #include "app/base/error.h"
 #include "app/cli/cache_folder.h"

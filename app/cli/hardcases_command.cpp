@@ -11,8 +11,8 @@
 #include "app/cli/interrupt.h"
 #include "app/cli/json_text.h"
 #include "app/dispatch/pipeline_store.h"
-#include "app/stress/hard_backend.h"
-#include "app/stress/hard_judge.h"
+#include "app/stress/stress_backend.h"
+#include "app/stress/stress_judge.h"
 
 namespace trisect {
 namespace {

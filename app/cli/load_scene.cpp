@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "app/bake/bvh.h"
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 #include "app/base/error.h"
 #include "app/base/stopwatch.h"
 #include "app/cli/interrupt.h"

@@ -1,6 +1,6 @@
 #include "app/dispatch/kernel_float.h"
 
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 
 namespace trisect::in_float {
 

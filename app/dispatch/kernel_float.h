@@ -34,16 +34,16 @@ struct Kernel {
 // Here a ray's tile means nothing.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-parameter"
-#include "shaders/every_part.glsl"
+#include "shaders/every_candidate.glsl"
 #pragma GCC diagnostic pop
 // The parts, above, are what a ray goes through.
 #include "shaders/trace.glsl"
 // What has been met casts shadows.
 #include "shaders/shadow.glsl"
 // What a camera sees needs its frame, above.
-#include "shaders/view_part.glsl"
+#include "shaders/project_subpatch.glsl"
 // The box and the lines of that.
-#include "shaders/may_see.glsl"
+#include "shaders/overlaps_rect.glsl"
 };
 
 #undef real

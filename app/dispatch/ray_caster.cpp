@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 #include "app/buffers/kernels.h"
 #include "app/dispatch/submit_budget.h"
 

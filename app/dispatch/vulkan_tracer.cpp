@@ -4,7 +4,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 #include "app/base/error.h"
 #include "app/base/stopwatch.h"
 #include "app/buffers/buffer_limits.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 
 namespace trisect::opengl {
 

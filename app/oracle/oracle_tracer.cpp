@@ -5,7 +5,7 @@
 #include "app/base/parallel_rows.h"
 #include "app/dispatch/kernel_float.h"
 #include "app/surface/surface_double.h"
-#include "app/surface/widen.h"
+#include "app/surface/to_double.h"
 
 namespace trisect {
 

@@ -9,7 +9,7 @@
 
 #include "app/base/interval.h"
 #include "app/surface/sphere_range.h"
-#include "app/surface/widen.h"
+#include "app/surface/to_double.h"
 
 namespace trisect {
 namespace {

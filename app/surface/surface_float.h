@@ -25,9 +25,11 @@ namespace {
 #include "shaders/linear.glsl"
 #include "shaders/surface.glsl"
 #include "shaders/thesis_field.glsl"
-// The bisection needs the fields above, the solver the cages.
+// The bisection needs the fields above.
 #include "shaders/bisect.glsl"
-#include "shaders/cage.glsl"
+// The bounds come before what uses them.
+#include "shaders/subpatch_bounds.glsl"
+// Then the ranges.
 #include "shaders/sphere_range.glsl"
 // The solver, then.
 #include "shaders/robust.glsl"

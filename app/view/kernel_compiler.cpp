@@ -35,8 +35,8 @@ struct KernelSource {
 constexpr const char* kAddresses = "#define TRISECT_ADDRESSES\n";
 constexpr auto kSources = std::to_array<KernelSource>({
     {"trace_list", "trace_list.comp", ""},
-    {"view_parts", "view_parts.comp", ""},
-    {"bin_parts", "bin_parts.comp", ""},
+    {"project_subpatches", "project_subpatches.comp", ""},
+    {"bin_subpatches", "bin_subpatches.comp", ""},
     {"fill_sky", "fill_sky.comp", ""},
     {"trace_tiles", "trace_tiles.comp", ""},
     {"trace_undecided", "trace_undecided.comp", ""},

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "app/bake/bvh.h"
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 #include "app/mesh/mesh_builder.h"
 #include "app/mesh/obj_file.h"
 

@@ -22,7 +22,7 @@
 #include "app/view/script.h"
 #include "app/view/view_statistics.h"
 #include "app/view/window.h"
-#include "vk/screen_pass.h"
+#include "vk/fullscreen_pass.h"
 #include "vk/swapchain.h"
 
 namespace trisect::view {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 #include "app/dispatch/cpu_tracer.h"
 #include "app/oracle/oracle_tracer.h"
 #include "tests/support/gpu.h"

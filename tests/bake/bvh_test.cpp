@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/bake/cage.h"
-#include "app/bake/part_boxes.h"
-#include "app/surface/widen.h"
+#include "app/bake/subpatch_bounds.h"
+#include "app/bake/subpatch_boxes.h"
+#include "app/surface/to_double.h"
 #include "tests/support/scenes.h"
 
 namespace trisect {

@@ -11,7 +11,7 @@
 #include <tuple>
 #include <vector>
 
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 #include "app/base/error.h"
 #include "app/bench/contender.h"
 #include "app/bench/document.h"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 #include "app/cli/commands.h"
 #include "app/crosscheck/frame_comparison.h"
 #include "app/dispatch/vulkan_tracer.h"

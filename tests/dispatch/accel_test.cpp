@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "app/bake/bvh.h"
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 #include "app/dispatch/accel.h"
 #include "app/dispatch/vulkan_tracer.h"
-#include "app/stress/hard_scenes.h"
+#include "app/stress/stress_scenes.h"
 #include "tests/support/gpu.h"
 #include "tests/support/scenes.h"
 #include "vk/result.h"

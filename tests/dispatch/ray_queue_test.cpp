@@ -6,9 +6,9 @@
 #include <random>
 
 #include "app/bake/bvh.h"
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 #include "app/dispatch/ray_caster.h"
-#include "app/stress/hard_scenes.h"
+#include "app/stress/stress_scenes.h"
 #include "tests/support/gpu.h"
 #include "tests/support/scenes.h"
 

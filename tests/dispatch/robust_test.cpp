@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 #include "app/dispatch/kernel_float.h"
 #include "app/dispatch/trace_settings.h"
 #include "app/oracle/oracle_tracer.h"

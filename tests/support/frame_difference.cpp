@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/base/max_propagating_nan.h"
 #include "app/base/quantiles.h"
-#include "app/base/raise.h"
 
 namespace trisect::test {
 

@@ -1,6 +1,6 @@
 #include "tests/support/gpu.h"
 
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 #include "app/dispatch/vulkan_tracer.h"
 
 namespace trisect::test {

@@ -10,7 +10,7 @@
 #include "app/bake/bake.h"
 #include "app/mesh/mesh.h"
 #include "app/surface/surface_double.h"
-#include "app/surface/widen.h"
+#include "app/surface/to_double.h"
 
 namespace trisect::test {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/bake/bvh.h"
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 #include "app/dispatch/ray_caster.h"
 #include "app/dispatch/trace_settings.h"
 #include "app/oracle/oracle.h"

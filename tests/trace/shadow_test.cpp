@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "app/bake/bvh.h"
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 #include "app/cli/options.h"
 #include "app/dispatch/cpu_tracer.h"
 #include "app/dispatch/vulkan_tracer.h"

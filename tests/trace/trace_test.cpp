@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/bake/bvh.h"
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 #include "app/cli/options.h"
 #include "app/dispatch/accel.h"
 #include "app/dispatch/vulkan_tracer.h"

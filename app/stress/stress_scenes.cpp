@@ -1,4 +1,4 @@
-#include "app/stress/hard_scenes.h"
+#include "app/stress/stress_scenes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "app/surface/surface_double.h"
-#include "app/surface/widen.h"
+#include "app/surface/to_double.h"
 
 namespace trisect::hard {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <utility>
 
-#include "app/stress/hard_cases.h"
-#include "app/stress/hard_scenes.h"
+#include "app/stress/stress_cases.h"
+#include "app/stress/stress_scenes.h"
 
 namespace trisect {
 namespace {

@@ -1,5 +1,5 @@
 // The catalogue of hard cases, and its judge.
-#include "app/stress/hard_cases.h"
+#include "app/stress/stress_cases.h"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <limits>
 #include <set>
 
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 #include "app/dispatch/trace_settings.h"
-#include "app/stress/hard_backend.h"
-#include "app/stress/hard_judge.h"
-#include "app/stress/hard_scenes.h"
+#include "app/stress/stress_backend.h"
+#include "app/stress/stress_judge.h"
+#include "app/stress/stress_scenes.h"
 #include "tests/support/gpu.h"
 
 namespace trisect {

@@ -1,7 +1,7 @@
 // The back ends as the hard cases use them.
 #pragma once
 
-#include "app/stress/hard_cases.h"
+#include "app/stress/stress_cases.h"
 #include "vk/device.h"
 
 namespace trisect {

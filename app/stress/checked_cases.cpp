@@ -5,15 +5,15 @@
 #include <cmath>
 #include <limits>
 
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 #include "app/base/error.h"
 #include "app/dispatch/camera.h"
 #include "app/dispatch/trace_settings.h"
 #include "app/mesh/mesh_builder.h"
 #include "app/oracle/oracle_tracer.h"
-#include "app/stress/hard_cases.h"
-#include "app/stress/hard_judge.h"
-#include "app/stress/hard_scenes.h"
+#include "app/stress/stress_cases.h"
+#include "app/stress/stress_judge.h"
+#include "app/stress/stress_scenes.h"
 
 namespace trisect {
 namespace {

@@ -1,4 +1,4 @@
-#include "vk/box_structure.h"
+#include "vk/aabb_acceleration_structure.h"
 
 #include "vk/result.h"
 

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "app/mesh/mesh_builder.h"
-#include "app/stress/hard_cases.h"
-#include "app/stress/hard_scenes.h"
+#include "app/stress/stress_cases.h"
+#include "app/stress/stress_scenes.h"
 
 namespace trisect {
 namespace {

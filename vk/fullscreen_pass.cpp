@@ -1,4 +1,4 @@
-#include "vk/screen_pass.h"
+#include "vk/fullscreen_pass.h"
 
 #include <array>
 #include <stdexcept>

@@ -1,9 +1,9 @@
-#include "app/stress/hard_judge.h"
+#include "app/stress/stress_judge.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 #include "app/base/parallel_rows.h"
 #include "app/dispatch/trace_settings.h"
 

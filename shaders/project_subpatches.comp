@@ -12,9 +12,9 @@ layout(constant_id = CONSTANT_BALLS) const bool BALLS = false;
 layout(std430, binding = BINDING_VIEW_PARTS) writeonly restrict buffer ViewPartsBlock { ViewPart view_parts[]; };
 
 #include "rays.glsl"
-#include "every_part.glsl"
+#include "every_candidate.glsl"
 #include "trace.glsl"
-#include "view_part.glsl"
+#include "project_subpatch.glsl"
 
 void main() {
   uint part = gl_GlobalInvocationID.x;

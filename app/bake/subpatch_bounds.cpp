@@ -1,4 +1,4 @@
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 
 #include <algorithm>
 #include <array>
@@ -7,16 +7,16 @@
 #include <optional>
 #include <vector>
 
-#include "app/bake/cage_net.h"
+#include "app/bake/control_net.h"
 #include "app/bake/enclosing_ball.h"
+#include "app/base/max_propagating_nan.h"
 #include "app/base/parallel_rows.h"
-#include "app/base/raise.h"
 #include "app/base/rounding.h"
 #include "app/surface/patch_range.h"
 #include "app/surface/sphere_range.h"
 #include "app/surface/surface_double.h"
 #include "app/surface/surface_float.h"
-#include "app/surface/widen.h"
+#include "app/surface/to_double.h"
 
 namespace trisect {
 namespace {

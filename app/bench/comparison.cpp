@@ -1,11 +1,11 @@
-#include "app/bench/field.h"
+#include "app/bench/comparison.h"
 
 #include <fmt/format.h>
 
 #include <utility>
 
 #include "app/bake/bvh.h"
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 #include "app/bench/pareto_front.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/progress_line.h"

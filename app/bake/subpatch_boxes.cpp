@@ -1,11 +1,11 @@
-#include "app/bake/part_boxes.h"
+#include "app/bake/subpatch_boxes.h"
 
 #include <limits>
 
-#include "app/bake/cage_net.h"
+#include "app/bake/control_net.h"
 #include "app/base/parallel_rows.h"
 #include "app/base/rounding.h"
-#include "app/surface/widen.h"
+#include "app/surface/to_double.h"
 
 namespace trisect {
 namespace {

@@ -10,4 +10,4 @@ uint part_count(uint tile) { return is_full(tile) ? params.cage_count : tile_cou
 
 uint part_at(uint tile, uint item) { return is_full(tile) ? item : tile_parts[tile * TILE_PARTS + item]; }
 
-#include "list_walk.glsl"
+#include "list_traversal.glsl"

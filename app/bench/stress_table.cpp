@@ -1,4 +1,4 @@
-#include "app/bench/hard_case_table.h"
+#include "app/bench/stress_table.h"
 
 #include <fmt/format.h>
 

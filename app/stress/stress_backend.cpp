@@ -1,4 +1,4 @@
-#include "app/stress/hard_backend.h"
+#include "app/stress/stress_backend.h"
 
 #include <fmt/format.h>
 

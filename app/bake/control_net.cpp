@@ -1,4 +1,4 @@
-#include "app/bake/cage_net.h"
+#include "app/bake/control_net.h"
 
 namespace trisect {
 

@@ -1,4 +1,4 @@
-#include "app/surface/widen.h"
+#include "app/surface/to_double.h"
 
 namespace trisect {
 

@@ -12,7 +12,7 @@ layout(std430, binding = BINDING_VIEW_PARTS) readonly restrict buffer ViewPartsB
 layout(std430, binding = BINDING_TILE_COUNTS) restrict buffer TileCountsBlock { uint tile_counts[]; };
 layout(std430, binding = BINDING_TILE_PARTS) writeonly restrict buffer TilePartsBlock { uint tile_parts[]; };
 
-#include "may_see.glsl"
+#include "overlaps_rect.glsl"
 
 // The row or column of tiles, of `count` from `first` on, in which an image coordinate lies; first + count if beyond.
 int tile_along(float x, int first, int count) {

@@ -1,17 +1,17 @@
 // What the bake promises about parts, and what a camera sees of them, against points of the
 // surface.
-#include "app/bake/cage.h"
+#include "app/bake/subpatch_bounds.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "app/bake/cage_net.h"
+#include "app/bake/control_net.h"
 #include "app/base/interval.h"
 #include "app/dispatch/kernel_float.h"
 #include "app/dispatch/trace_settings.h"
 #include "app/surface/surface_double.h"
-#include "app/surface/widen.h"
+#include "app/surface/to_double.h"
 #include "tests/support/scenes.h"
 
 namespace trisect {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/oracle/oracle.h"
-#include "app/stress/hard_cases.h"
+#include "app/stress/stress_cases.h"
 
 namespace trisect {
 

@@ -4,4 +4,4 @@ uint part_count(uint tile) { return params.cage_count; }
 
 uint part_at(uint tile, uint item) { return item; }
 
-#include "list_walk.glsl"
+#include "list_traversal.glsl"
