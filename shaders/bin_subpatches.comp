@@ -5,12 +5,12 @@
 #include "shared.h"
 #include "solvers.glsl"
 
-layout(local_size_x = PARTS_SIZE) in;
+layout(local_size_x = SUBPATCH_GROUP_SIZE) in;
 
 #include "frame_buffers.glsl"
-layout(std430, binding = BINDING_VIEW_PARTS) readonly restrict buffer ViewPartsBlock { ViewPart view_parts[]; };
+layout(std430, binding = BINDING_PROJECTED) readonly restrict buffer ProjectedBlock { ProjectedSubpatch projected[]; };
 layout(std430, binding = BINDING_TILE_COUNTS) restrict buffer TileCountsBlock { uint tile_counts[]; };
-layout(std430, binding = BINDING_TILE_PARTS) writeonly restrict buffer TilePartsBlock { uint tile_parts[]; };
+layout(std430, binding = BINDING_TILE_SUBPATCHES) writeonly restrict buffer TileSubpatchesBlock { uint tile_subpatches[]; };
 
 #include "overlaps_rect.glsl"
 
@@ -20,9 +20,9 @@ int tile_along(float x, int first, int count) {
 }
 
 void main() {
-  uint part = gl_GlobalInvocationID.x;
-  if (part >= params.cage_count || cages[part].skip > 0u) return;
-  ViewPart view = view_parts[part];
+  uint subpatch = gl_GlobalInvocationID.x;
+  if (subpatch >= params.subpatch_count || subpatches[subpatch].skip > 0u) return;
+  ProjectedSubpatch view = projected[subpatch];
   int columns = int(tiles_across(params.width));
   int band_rows = int(tiles_across(push.rows));
   int first_row = int(push.first_row / TILE_SIZE);
@@ -37,10 +37,10 @@ void main() {
   int column = left;
   while (row <= bottom && left <= right) {
     vec2 middle = (vec2(column, row) + vec2(0.5)) * float(TILE_SIZE);
-    if (may_see(view, middle, half_size)) {
+    if (overlaps_rect(view, middle, half_size)) {
       uint tile = uint((row - first_row) * columns + column);
       uint place = atomicAdd(tile_counts[tile], 1u);
-      if (place < TILE_PARTS) tile_parts[tile * TILE_PARTS + place] = part;
+      if (place < TILE_CAPACITY) tile_subpatches[tile * TILE_CAPACITY + place] = subpatch;
     }
     ++column;
     if (column > right) {

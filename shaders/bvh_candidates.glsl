@@ -1,8 +1,8 @@
 // The parts that a ray goes through: those in whose boxes it comes, found by the tree over them.
 
-bool no_parts_left(PixelRay ray, uint item) { return item == BVH_END; }
+bool no_candidates_left(PixelRay ray, uint item) { return item == BVH_END; }
 
-uint item_after(uint item) { return bvh[item].next; }
+uint next_item(uint item) { return bvh[item].next; }
 
 // By how much the boxes are enlarged for a ray: some roundings of its point.
 float slack_of(PixelRay ray) { return BVH_SLACK * ray.frame.stretch * length3(ray.anchor); }
@@ -15,29 +15,29 @@ vec3 inverse_of(vec3 a) {
 
 // The next part to be met, at walk.item; NO_TRIANGLE if the tree, or the steps, ended before. Kay & Kajiya's slabs
 // (1986).
-uint find_part(PixelRay ray, INOUT(Walk) walk) {
+uint find_candidate(PixelRay ray, INOUT(Traversal) traversal) {
   vec3 inverse = inverse_of(ray.view);
   vec3 slack = vec3(slack_of(ray));
   float begin = ray.frame.stretch * ray.nearest;
-  uint part = NO_TRIANGLE;
-  while (walk.item != BVH_END && walk.steps > 0 && part == NO_TRIANGLE) {
-    --walk.steps;
-    BvhEntry entry = bvh[walk.item];
-    if (COUNTS) walk.counts.bytes += BVH_ENTRY_BYTES;
+  uint subpatch = NO_TRIANGLE;
+  while (traversal.item != BVH_END && traversal.steps > 0 && subpatch == NO_TRIANGLE) {
+    --traversal.steps;
+    BvhEntry entry = bvh[traversal.item];
+    if (COUNTS) traversal.counts.bytes += BVH_ENTRY_BYTES;
     vec3 a = (vec3(entry.lo_x, entry.lo_y, entry.lo_z) - slack - ray.anchor) * inverse;
     vec3 b = (vec3(entry.hi_x, entry.hi_y, entry.hi_z) + slack - ray.anchor) * inverse;
     vec3 enter = min(a, b);
     vec3 leave = max(a, b);
     float first = max(max(enter.x, enter.y), max(enter.z, begin));
-    float last = min(min(leave.x, leave.y), min(leave.z, ray.frame.stretch * walk.hit.z));
-    if (entry.link == BVH_NOTHING || !(first <= last + BVH_SLACK * (abs(first) + abs(last)))) {
-      walk.item = entry.next;
-      walk.path = WHOLE;
-    } else if (entry.link >= BVH_PART) {
-      part = entry.link - BVH_PART;
+    float last = min(min(leave.x, leave.y), min(leave.z, ray.frame.stretch * traversal.hit.z));
+    if (entry.link == BVH_EMPTY || !(first <= last + BVH_SLACK * (abs(first) + abs(last)))) {
+      traversal.item = entry.next;
+      traversal.path = WHOLE;
+    } else if (entry.link >= BVH_LEAF) {
+      subpatch = entry.link - BVH_LEAF;
     } else {
-      walk.item = entry.link;
+      traversal.item = entry.link;
     }
   }
-  return part;
+  return subpatch;
 }

@@ -2,8 +2,8 @@
 
 layout(constant_id = CONSTANT_SURFACE) const uint SURFACE = SURFACE_PHONG;
 layout(constant_id = CONSTANT_SHELL) const uint SHELL = SHELL_NORMAL;
-layout(constant_id = CONSTANT_GROUPS) const bool GROUPS = false;
-layout(constant_id = CONSTANT_KINKS) const bool KINKS = false;
+layout(constant_id = CONSTANT_DIVIDED) const bool DIVIDED = false;
+layout(constant_id = CONSTANT_NONSMOOTH) const bool MAY_BE_NONSMOOTH = false;
 layout(constant_id = CONSTANT_SOLVER) const uint SOLVER = SOLVER_ROBUST;
 const bool AOVS = false;
 const bool COUNTS = true;

@@ -2,21 +2,21 @@
 
 void main() {
   uint index = gl_GlobalInvocationID.x;
-  Walk walk = walk_begun(int(push.queue.steps));
+  Traversal traversal = begin_traversal(int(push.queue.steps));
   if (push.queue.pass == 0u) {
     index += push.first;
     if (index >= push.end) return;
   } else {
     if (index >= push.queue.resumed) return;
     uint place = push.queue.from + index;
-    walk = resumed_walk(place, walk.steps);
+    traversal = resumed_traversal(place, traversal.steps);
     index = paused[place].ray;
   }
-  PixelRay ray = ray_cast(rays[index]);
-  go_on(ray, push.queue.pass, walk);
-  if (is_through(ray, walk)) {
-    hits[index] = hit_cast(ray, walk);
+  PixelRay ray = ray_of_cast(rays[index]);
+  resume(ray, push.queue.pass, traversal);
+  if (is_finished(ray, traversal)) {
+    hits[index] = cast_result(ray, traversal);
   } else {
-    enqueue(index, walk);
+    enqueue(index, traversal);
   }
 }

@@ -1,7 +1,7 @@
 // The parts that a ray goes through: all of them.
 
-uint part_count(uint tile) { return params.cage_count; }
+uint candidate_count(uint tile) { return params.subpatch_count; }
 
-uint part_at(uint tile, uint item) { return item; }
+uint candidate_at(uint tile, uint item) { return item; }
 
 #include "list_traversal.glsl"

@@ -25,5 +25,5 @@ void main() {
   uvec2 pixel = gl_GlobalInvocationID.xy + uvec2(0u, push.first_row);
   if (pixel.x >= params.width || pixel.y >= params.height) return;
   precise PixelRay ray = pixel_ray(pixel);
-  write_pixel(pixel, ray, walk_begun(0));
+  write_pixel(pixel, ray, begin_traversal(0));
 }

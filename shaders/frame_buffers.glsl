@@ -3,8 +3,8 @@
 #ifdef TRISECT_OPENGL
 const uint SURFACE = VALUE_SURFACE;
 const uint SHELL = VALUE_SHELL;
-const bool GROUPS = VALUE_GROUPS != 0u;
-const bool KINKS = VALUE_KINKS != 0u;
+const bool DIVIDED = VALUE_DIVIDED != 0u;
+const bool MAY_BE_NONSMOOTH = VALUE_NONSMOOTH != 0u;
 const uint SOLVER = VALUE_SOLVER;
 const bool AOVS = VALUE_AOVS != 0u;
 const bool COUNTS = VALUE_COUNTS != 0u;
@@ -13,8 +13,8 @@ layout(std430, binding = BINDING_PUSH) readonly restrict buffer PushBlock { Tile
 #else
 layout(constant_id = CONSTANT_SURFACE) const uint SURFACE = SURFACE_PHONG;
 layout(constant_id = CONSTANT_SHELL) const uint SHELL = SHELL_NORMAL;
-layout(constant_id = CONSTANT_GROUPS) const bool GROUPS = false;
-layout(constant_id = CONSTANT_KINKS) const bool KINKS = false;
+layout(constant_id = CONSTANT_DIVIDED) const bool DIVIDED = false;
+layout(constant_id = CONSTANT_NONSMOOTH) const bool MAY_BE_NONSMOOTH = false;
 layout(constant_id = CONSTANT_SOLVER) const uint SOLVER = SOLVER_ROBUST;
 layout(constant_id = CONSTANT_AOVS) const bool AOVS = false;
 layout(constant_id = CONSTANT_COUNTS) const bool COUNTS = false;

@@ -4,7 +4,7 @@
 const real PIXEL_SLACK = real(0.02);
 
 // Whether a rectangle of the image, given by its middle and half its size, may see the part.
-bool may_see(ViewPart view, vec2 middle, vec2 half_size) {
+bool overlaps_rect(ProjectedSubpatch view, vec2 middle, vec2 half_size) {
   bool in_box = view.box.x <= middle.x + half_size.x && view.box.z >= middle.x - half_size.x &&
                 view.box.y <= middle.y + half_size.y && view.box.w >= middle.y - half_size.y;
   vec3 nearest = vec3(view.lines_x) * middle.x + vec3(view.lines_y) * middle.y -

@@ -5,7 +5,7 @@
 // of eight at least.
 
 const uint CHILDREN = 8u;
-const uint CAGE_WORDS = 6u;
+const uint SUBPATCH_WORDS = 6u;
 const uint TRIANGLE_WORDS = 12u;
 // What an invocation loads of a part and its triangle in load_by_all, and where it looks what an entry is.
 const uint SHARE_BYTES = 48u;
@@ -83,7 +83,7 @@ shared uint above[TILE_SIZE * TILE_SIZE / CHILDREN][BVH_LEVELS];
 uint children_met(Packet packet, uint node, float end) {
   uint k = gl_SubgroupInvocationID;
   BvhEntry entry = bvh[node + ((k & (CHILDREN - 1u)) ^ packet.octant)];
-  bool met = k < CHILDREN && entry.link != BVH_NOTHING &&
+  bool met = k < CHILDREN && entry.link != BVH_EMPTY &&
              comes_into(packet, vec3(entry.lo_x, entry.lo_y, entry.lo_z), vec3(entry.hi_x, entry.hi_y, entry.hi_z), end);
   return subgroupBallot(met).x;
 }
@@ -103,7 +103,7 @@ Descent descent_begun(Packet packet) {
 // its frame. here: whether it is this ray that comes near.
 uint next_part(Packet packet, PixelRay ray, float z, inout Descent descent, out bool here) {
   float end = subgroupMax(ray.frame.stretch * z);
-  uint part = NO_TRIANGLE;
+  uint subpatch = NO_TRIANGLE;
   here = false;
   bool ended = false;
   do {
@@ -120,12 +120,12 @@ uint next_part(Packet packet, PixelRay ray, float z, inout Descent descent, out 
       uint k = uint(findLSB(descent.left));
       descent.left &= descent.left - 1u;
       uint link = bvh[descent.node + (k ^ packet.octant)].link;
-      if (link >= BVH_PART) {
+      if (link >= BVH_LEAF) {
         if (COUNTS) descent.bytes += LINK_BYTES + BALL_BYTES;
-        here = !is_beside(ray, cage_words[(link - BVH_PART) * CAGE_WORDS], z);
+        here = !misses_ball(ray, subpatch_words[(link - BVH_LEAF) * SUBPATCH_WORDS], z);
         // Here and not by the caller: llvmpipe goes through a branch that no ray takes.
         if (subgroupAny(here)) {
-          part = link - BVH_PART;
+          subpatch = link - BVH_LEAF;
           if (COUNTS) descent.bytes += SHARE_BYTES;
         }
       } else {
@@ -138,27 +138,27 @@ uint next_part(Packet packet, PixelRay ray, float z, inout Descent descent, out 
         if (COUNTS) descent.bytes += LINK_BYTES + BVH_ENTRY_BYTES;
       }
     }
-  } while (part == NO_TRIANGLE && !ended);
+  } while (subpatch == NO_TRIANGLE && !ended);
   descent.steps -= VISIT_STEPS;
-  return part;
+  return subpatch;
 }
 
 // The part and its triangle, for all invocations of a subgroup: each loads a word, which the others get from it, as
 // in trace_tiles.comp.
-void load_by_all(uint part, out Cage cage, out Triangle tri) {
+void load_by_all(uint subpatch, out SubpatchBounds bounds, out Triangle tri) {
   uint lane = gl_SubgroupInvocationID;
-  vec4 word = cage_words[part * CAGE_WORDS + min(lane, CAGE_WORDS - 1u)];
-  cage.ball = subgroupBroadcast(word, 0);
-  cage.node = subgroupBroadcast(word, 1);
-  cage.corner = subgroupBroadcast(word, 2);
-  cage.edge = subgroupBroadcast(word, 3);
-  cage.cone = subgroupBroadcast(word, 4);
+  vec4 word = subpatch_words[subpatch * SUBPATCH_WORDS + min(lane, SUBPATCH_WORDS - 1u)];
+  bounds.ball = subgroupBroadcast(word, 0);
+  bounds.sub_triangle = subgroupBroadcast(word, 1);
+  bounds.corner = subgroupBroadcast(word, 2);
+  bounds.edge = subgroupBroadcast(word, 3);
+  bounds.cone = subgroupBroadcast(word, 4);
   vec4 rest = subgroupBroadcast(word, 5);
-  cage.triangle = floatBitsToUint(rest.x);
-  cage.flat_part = floatBitsToUint(rest.y);
-  cage.bend = rest.z;
-  cage.skip = 0u;
-  uint base = cage.triangle * TRIANGLE_WORDS;
+  bounds.triangle = floatBitsToUint(rest.x);
+  bounds.is_flat = floatBitsToUint(rest.y);
+  bounds.gradient_lipschitz = rest.z;
+  bounds.skip = 0u;
+  uint base = bounds.triangle * TRIANGLE_WORDS;
   word = triangle_words[base + (lane & 7u)];
   tri.Position[0] = subgroupBroadcast(word, 0);
   tri.Position[1] = subgroupBroadcast(word, 1);

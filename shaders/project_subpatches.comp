@@ -5,11 +5,11 @@
 #include "shared.h"
 #include "solvers.glsl"
 
-layout(local_size_x = PARTS_SIZE) in;
+layout(local_size_x = SUBPATCH_GROUP_SIZE) in;
 
 #include "frame_buffers.glsl"
 layout(constant_id = CONSTANT_BALLS) const bool BALLS = false;
-layout(std430, binding = BINDING_VIEW_PARTS) writeonly restrict buffer ViewPartsBlock { ViewPart view_parts[]; };
+layout(std430, binding = BINDING_PROJECTED) writeonly restrict buffer ProjectedBlock { ProjectedSubpatch projected[]; };
 
 #include "rays.glsl"
 #include "every_candidate.glsl"
@@ -17,9 +17,9 @@ layout(std430, binding = BINDING_VIEW_PARTS) writeonly restrict buffer ViewParts
 #include "project_subpatch.glsl"
 
 void main() {
-  uint part = gl_GlobalInvocationID.x;
-  if (part >= params.cage_count) return;
-  precise ViewPart view = seen_part(part);
-  if (BALLS) bound_by_ball(cages[part].ball, view);
-  view_parts[part] = view;
+  uint subpatch = gl_GlobalInvocationID.x;
+  if (subpatch >= params.subpatch_count) return;
+  precise ProjectedSubpatch view = project_subpatch(subpatch);
+  if (BALLS) bound_by_ball(subpatches[subpatch].ball, view);
+  projected[subpatch] = view;
 }

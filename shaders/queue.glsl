@@ -4,39 +4,39 @@ layout(std430, binding = BINDING_QUEUE) restrict buffer QueueBlock { PausedRay p
 layout(std430, binding = BINDING_QUEUED) restrict buffer QueuedBlock { QueueState state; };
 
 // The walk that paused at a place of the queue.
-Walk resumed_walk(uint place, int steps) {
+Traversal resumed_traversal(uint place, int steps) {
   PausedRay ray = paused[place];
-  Walk walk;
-  walk.hit.z = ray.hit.w;
-  walk.hit.weights = vec3(ray.hit);
-  walk.hit.triangle = ray.triangle;
-  walk.hit.part = ray.part;
-  walk.counts.evaluations = ray.evaluations;
-  walk.counts.candidates = ray.candidates;
-  walk.counts.bytes = 0u;
-  walk.item = ray.item;
-  walk.path = ray.path;
-  walk.steps = steps;
-  return walk;
+  Traversal traversal;
+  traversal.hit.z = ray.hit.w;
+  traversal.hit.weights = vec3(ray.hit);
+  traversal.hit.triangle = ray.triangle;
+  traversal.hit.subpatch = ray.subpatch;
+  traversal.counts.evaluations = ray.evaluations;
+  traversal.counts.candidates = ray.candidates;
+  traversal.counts.bytes = 0u;
+  traversal.item = ray.item;
+  traversal.path = ray.path;
+  traversal.steps = steps;
+  return traversal;
 }
 
-void pause(uint place, uint ray, Walk walk) {
-  paused[place].hit = vec4(walk.hit.weights, walk.hit.z);
-  paused[place].triangle = walk.hit.triangle;
-  paused[place].part = walk.hit.part;
+void pause(uint place, uint ray, Traversal traversal) {
+  paused[place].hit = vec4(traversal.hit.weights, traversal.hit.z);
+  paused[place].triangle = traversal.hit.triangle;
+  paused[place].subpatch = traversal.hit.subpatch;
   paused[place].ray = ray;
-  paused[place].item = walk.item;
-  paused[place].path = walk.path;
-  paused[place].evaluations = walk.counts.evaluations;
-  paused[place].candidates = walk.counts.candidates;
+  paused[place].item = traversal.item;
+  paused[place].path = traversal.path;
+  paused[place].evaluations = traversal.counts.evaluations;
+  paused[place].candidates = traversal.counts.candidates;
 }
 
 // At the next place of the half that is filled.
-void enqueue(uint ray, Walk walk) { pause(push.queue.to + atomicAdd(state.queued, 1u), ray, walk); }
+void enqueue(uint ray, Traversal traversal) { pause(push.queue.to + atomicAdd(state.queued, 1u), ray, traversal); }
 
 // Adds what an invocation has read to what all of them have.
-void count_bytes(Walk walk) {
+void count_bytes(Traversal traversal) {
   if (!COUNTS) return;
-  uint before = atomicAdd(state.bytes_low, walk.counts.bytes);
-  if (before + walk.counts.bytes < before) atomicAdd(state.bytes_high, 1u);
+  uint before = atomicAdd(state.bytes_low, traversal.counts.bytes);
+  if (before + traversal.counts.bytes < before) atomicAdd(state.bytes_high, 1u);
 }

@@ -58,7 +58,7 @@ PixelRay pixel_ray(uvec2 pixel) {
 }
 
 // Whether the ray passes the ball by, or has met something before it, at z in its frame.
-bool is_beside(PixelRay ray, vec4 ball, real z) {
+bool misses_ball(PixelRay ray, vec4 ball, real z) {
   vec3 center = vec3(ball) - ray.anchor;
   real along = dot3(center, ray.view);
   real size = dot3(center, center);
@@ -68,7 +68,7 @@ bool is_beside(PixelRay ray, vec4 ball, real z) {
          along - ball.w > ray.frame.stretch * z + real(1e-6) * (ball.w + abs(along));
 }
 
-PixelRay ray_cast(CastRay asked) {
+PixelRay ray_of_cast(CastRay asked) {
   PixelRay ray;
   ray.tile = 0u;
   ray.near_point = vec3(asked.anchor) + vec3(asked.direction) * asked.anchor.w;

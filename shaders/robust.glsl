@@ -2,7 +2,7 @@
 //
 // The patch is seen in the ray's frame, where a root is a zero of S.xy over the triangle. Nodes, sub-triangles
 // of dyadic size, are taken from a quadtree: one whose cage stays clear of the ray is done; one in which the cage
-// allows one root at most (mean_tangents) is solved by Newton's method, held within the node; where that ends on the
+// allows one root at most (mean_jacobian) is solved by Newton's method, held within the node; where that ends on the
 // node's border without a root, an interval Newton test must prove that there is none. What is not proven is
 // divided. Silhouettes, where a ray grazes a node, are divided nine times; Newton then starts from every corner.
 //
@@ -13,8 +13,8 @@
 
 // What a search of a node found.
 const uint FOUND_ROOT = 0u;
-const uint FOUND_NONE = 1u;
-const uint FOUND_NOTHING = 2u;  // neither a root nor that there is none
+const uint PROVEN_MISS = 1u;
+const uint UNDECIDED = 2u;  // neither a root nor that there is none
 
 const int MOST_STEPS = 10;
 // Of a node's size. Steps this small leave an error of their square.
@@ -27,7 +27,7 @@ const real WEIGHT_ROUNDINGS = real(2.4e-7);
 // Beside the curves on which lines begin to miss a sphere sigma's roundings keep the steps of a `rough` search from getting
 // smaller: the last may have this part of the node's size.
 const real ROUGH_STEP = real(0.0625);
-// What the loops of one node take of Walk::steps, beside the evaluations.
+// What the loops of one node take of Traversal::steps, beside the evaluations.
 const int VISIT_STEPS = 8;
 
 // Orthonormal axes with z = view: Duff et al. 2017, "Building an orthonormal basis, revisited".
@@ -46,19 +46,19 @@ RayFrame ray_frame(vec3 anchor, vec3 view) {
   return frame;
 }
 
-vec3 turned(RayFrame frame, vec3 a) {
+vec3 rotated(RayFrame frame, vec3 a) {
   return vec3(dot3(frame.x, a), dot3(frame.y, a), dot3(frame.z, a));
 }
 
 // The patch in the frame's axes.
-FramedPatch turned_patch(RayFrame frame, uint shell, Triangle tri) {
+FramedPatch rotated_patch(RayFrame frame, uint shell, Triangle tri) {
   FramedPatch at;
-  at.P0 = turned(frame, vec3(tri.Position[0]) - frame.anchor);
-  at.P1 = turned(frame, vec3(tri.Position[1]) - frame.anchor);
-  at.P2 = turned(frame, vec3(tri.Position[2]) - frame.anchor);
-  at.D0 = turned(frame, corner_direction(shell, tri.Normal[0], tri.NormDot.x));
-  at.D1 = turned(frame, corner_direction(shell, tri.Normal[1], tri.NormDot.y));
-  at.D2 = turned(frame, corner_direction(shell, tri.Normal[2], tri.NormDot.z));
+  at.P0 = rotated(frame, vec3(tri.Position[0]) - frame.anchor);
+  at.P1 = rotated(frame, vec3(tri.Position[1]) - frame.anchor);
+  at.P2 = rotated(frame, vec3(tri.Position[2]) - frame.anchor);
+  at.D0 = rotated(frame, corner_direction(shell, tri.Normal[0], tri.NormDot.x));
+  at.D1 = rotated(frame, corner_direction(shell, tri.Normal[1], tri.NormDot.y));
+  at.D2 = rotated(frame, corner_direction(shell, tri.Normal[2], tri.NormDot.z));
   return at;
 }
 
@@ -80,25 +80,25 @@ FramedPatch sheared_patch(RayFrame frame, FramedPatch at) {
 
 // What a coordinate across the ray may be off by. A ray that passes a patch's border by less than this meets it, so that
 // none falls between two patches.
-real grain(RayFrame frame, Triangle tri) { return ROUNDINGS * frame.stretch * farthest(frame.anchor, tri); }
+real position_tolerance(RayFrame frame, Triangle tri) { return ROUNDINGS * frame.stretch * farthest(frame.anchor, tri); }
 
 // The quadratic of a cubic patch is sigma itself.
-Displacement displacement_in(Shape shape, Triangle tri, Cage cage, vec3 w) {
-  if (is_cubic(shape)) return bulged(vec3(cage.edge) * real(2.0), w);
+Displacement displacement_in(Shape shape, Triangle tri, SubpatchBounds bounds, vec3 w) {
+  if (is_cubic(shape)) return bulged(vec3(bounds.edge) * real(2.0), w);
   return displacement_and_derivatives(shape, tri, w);
 }
 
-Contact contact(Shape shape, Triangle tri, Cage cage, FramedPatch framed, vec3 w) {
-  Displacement sigma = displacement_in(shape, tri, cage, w);
+SurfacePoint evaluate_surface(Shape shape, Triangle tri, SubpatchBounds bounds, FramedPatch framed, vec3 w) {
+  Displacement sigma = displacement_in(shape, tri, bounds, w);
   vec3 D = weigh(w, framed.D0, framed.D1, framed.D2);
-  EXACT Contact at;
+  EXACT SurfacePoint at;
   at.S = weigh(w, framed.P0, framed.P1, framed.P2) + D * sigma.s;
   at.u = (framed.P1 - framed.P0) + D * sigma.u + (framed.D1 - framed.D0) * sigma.s;
   at.v = (framed.P2 - framed.P0) + D * sigma.v + (framed.D2 - framed.D0) * sigma.s;
   return at;
 }
 
-Node widened(Node node) {
+Node with_overlap(Node node) {
   Node wide;
   wide.origin = node.origin - vec3(OVERLAP * node.size);
   wide.size = (real(1.0) + real(3.0) * OVERLAP) * node.size;
@@ -108,7 +108,7 @@ Node widened(Node node) {
 real least(vec3 a) { return min(min(a.x, a.y), a.z); }
 
 // The root of the triangle of a node's corners, in weights within it, drawn to the triangle.
-vec3 flat_guess(Net net) {
+vec3 flat_guess(ControlNet net) {
   vec2 u = net.b030 - net.b300;
   vec2 v = net.b003 - net.b300;
   real det = cross2(u, v);
@@ -143,14 +143,14 @@ vec3 closest_on_border(vec3 from, vec3 target, vec2 f, vec2 u, vec2 v) {
 }
 
 // Newton's method from the weights l within a node. If the node is `certified` to hold one root at most,
-// FOUND_NONE is a proof. `rough`: a root may be known no better than ROUGH_STEP. On a root: its place along the ray, and its
+// PROVEN_MISS is a proof. `rough`: a root may be known no better than ROUGH_STEP. On a root: its place along the ray, and its
 // weights.
-uint newton(Shape shape, Triangle tri, Cage cage, FramedPatch framed, Node node, Mean mean, bool certified, bool rough,
-            real reach, vec3 l, OUT(real) z, OUT(vec3) weights, INOUT(uint) evaluations) {
+uint newton(Shape shape, Triangle tri, SubpatchBounds bounds, FramedPatch framed, Node node, MeanJacobian mean, bool certified, bool rough,
+            real tolerance, vec3 l, OUT(real) z, OUT(vec3) weights, INOUT(uint) evaluations) {
   z = real(0.0);
   weights = weights_of(node, l);
   for (int i = 0; i < MOST_STEPS; ++i) {
-    Contact at = contact(shape, tri, cage, framed, weights);
+    SurfacePoint at = evaluate_surface(shape, tri, bounds, framed, weights);
     ++evaluations;
     vec2 f = vec2(at.S);
     vec2 u = vec2(at.u);
@@ -160,15 +160,15 @@ uint newton(Shape shape, Triangle tri, Cage cage, FramedPatch framed, Node node,
     real dv = cross2(f, u) / slope;
     real step = max(abs(du), abs(dv));
     // A NaN ends here.
-    if (!(step < real(1e6))) return FOUND_NOTHING;
+    if (!(step < real(1e6))) return UNDECIDED;
     vec3 from = weights;
     vec3 target = from + vec3(-du - dv, du, dv);
     vec3 inside = weights_in(node, target);
     // Where the ray grazes the surface the last digits of f move the step further than any bound on it.
-    bool exact = largest(f) <= real(0.5) * reach;
+    bool exact = largest(f) <= real(0.5) * tolerance;
     bool held = least(inside) < real(0.0) && !exact;
     if (held) {
-      if (certified && excludes(mean, f, weights_in(node, from), real(1e-5))) return FOUND_NONE;
+      if (certified && newton_excludes(mean, f, weights_in(node, from), real(1e-5))) return PROVEN_MISS;
       target = weights_of(node, held_inside(inside));
     }
     weights = target;
@@ -177,33 +177,33 @@ uint newton(Shape shape, Triangle tri, Cage cage, FramedPatch framed, Node node,
     if (moved > max(SMALL_STEP * abs(node.size), WEIGHT_ROUNDINGS) && !exact && !settled) continue;
     // Of a node's border only what it shares with the patch's is of interest: beyond the rest of it lie other
     // nodes, which overlap this one.
-    if (held) return FOUND_NOTHING;
+    if (held) return UNDECIDED;
     real gu = du;
     real gv = dv;
     if (least(target) < real(0.0)) {
       weights = closest_on_border(from, target, f, u, v);
       gu = weights.y - from.y;
       gv = weights.z - from.z;
-      if (largest(f + u * gu + v * gv) > reach) return FOUND_NONE;
+      if (largest(f + u * gu + v * gv) > tolerance) return PROVEN_MISS;
     }
     z = at.S.z + at.u.z * gu + at.v.z * gv;
     return FOUND_ROOT;
   }
-  return FOUND_NOTHING;
+  return UNDECIDED;
 }
 
 // The root in a part through whose cone the ray goes steeply: it meets the enlarged part once at most, so that a root
 // found beside the part proves that there is none in it. Newton's method with nothing to hold it; what it leaves
 // undecided, roots on the patch's border among it, is for the search below.
-uint meet_once(Shape shape, Triangle tri, Cage cage, FramedPatch framed, vec3 view, real reach, OUT(real) z,
+uint intersect_by_newton(Shape shape, Triangle tri, SubpatchBounds bounds, FramedPatch framed, vec3 view, real tolerance, OUT(real) z,
                OUT(vec3) weights, INOUT(uint) evaluations) {
   vec3 Pu = framed.P1 - framed.P0;
   vec3 Pv = framed.P2 - framed.P0;
   vec3 Du = framed.D1 - framed.D0;
   vec3 Dv = framed.D2 - framed.D0;
-  real size = abs(cage.node.w);
-  bool steep = abs(dot3(vec3(cage.cone), view)) > cage.cone.w;
-  vec3 next = vec3(cage.node) + vec3(cage.node.w / real(3.0));
+  real size = abs(bounds.sub_triangle.w);
+  bool steep = abs(dot3(vec3(bounds.cone), view)) > bounds.cone.w;
+  vec3 next = vec3(bounds.sub_triangle) + vec3(bounds.sub_triangle.w / real(3.0));
   // Of the last step: where from, sigma there, how far, and what the surface spans there, seen along the ray.
   vec3 from = next;
   vec3 sigma = vec3(0.0);
@@ -215,7 +215,7 @@ uint meet_once(Shape shape, Triangle tri, Cage cage, FramedPatch framed, vec3 vi
   // The condition stands at the end because llvmpipe runs the body once more, masked, if it stands at the head. Mesa
   // 22.3 then loses what a ray had when it left the loop before others, hence the choices by `found`.
   do {
-    Displacement here = displacement_in(shape, tri, cage, next);
+    Displacement here = displacement_in(shape, tri, bounds, next);
     EXACT vec3 D = framed.D0 + Du * next.y + Dv * next.z;
     EXACT vec2 f = vec2(framed.P0) + vec2(Pu) * next.y + vec2(Pv) * next.z + vec2(D) * here.s;
     EXACT vec2 u = vec2(Pu) + vec2(D) * here.u + vec2(Du) * here.s;
@@ -239,133 +239,133 @@ uint meet_once(Shape shape, Triangle tri, Cage cage, FramedPatch framed, vec3 vi
   EXACT real depth = framed.P0.z + Pu.z * weights.y + Pv.z * weights.z + lifted;
   z = depth;
   real outside = -least(weights);
-  real beside = -least((weights - vec3(cage.node)) / cage.node.w);
-  if (!steep || !(largest(step) <= ONCE_MOVED * size) || !(beside <= CONE_MARGIN)) return FOUND_NOTHING;
-  if (outside <= real(0.0)) return beside <= OVERLAP ? FOUND_ROOT : FOUND_NONE;
+  real outside_subpatch = -least((weights - vec3(bounds.sub_triangle)) / bounds.sub_triangle.w);
+  if (!steep || !(largest(step) <= ONCE_MOVED * size) || !(outside_subpatch <= CONE_MARGIN)) return UNDECIDED;
+  if (outside <= real(0.0)) return outside_subpatch <= OVERLAP ? FOUND_ROOT : PROVEN_MISS;
   // So far from the line of an edge, over the longest of which 1.5 (|u| + |v|) is: twice the reach, for the surface's
   // bend between here and there.
-  return outside * abs(slope) > real(2.0) * reach * longest ? FOUND_NONE : FOUND_NOTHING;
+  return outside * abs(slope) > real(2.0) * tolerance * longest ? PROVEN_MISS : UNDECIDED;
 }
 
-void keep_nearest(real z, vec3 weights, uint triangle, uint part, real nearest, INOUT(Hit) hit) {
-  if (z >= nearest && (z < hit.z || (z == hit.z && part < hit.part))) {
+void keep_nearest(real z, vec3 weights, uint triangle, uint subpatch, real nearest, INOUT(Hit) hit) {
+  if (z >= nearest && (z < hit.z || (z == hit.z && subpatch < hit.subpatch))) {
     hit.z = z;
     hit.weights = weights;
     hit.triangle = triangle;
-    hit.part = part;
+    hit.subpatch = subpatch;
   }
 }
 
 // A patch without displacement: its plane is met once, no node is looked at.
-void meet_flat(FramedPatch framed, uint triangle, uint part, real reach, real nearest, INOUT(Hit) hit) {
+void intersect_flat(FramedPatch framed, uint triangle, uint subpatch, real tolerance, real nearest, INOUT(Hit) hit) {
   vec2 P = vec2(framed.P0);
   vec2 u = vec2(framed.P1) - P;
   vec2 v = vec2(framed.P2) - P;
   real det = cross2(u, v);
   // Seen so much from its edge that it is thinner than the grain: what is behind it, or beside it, is met.
-  if (!(abs(det) > reach * max(largest(u), largest(v)))) return;
+  if (!(abs(det) > tolerance * max(largest(u), largest(v)))) return;
   real a = -cross2(P, v) / det;
   real b = cross2(P, u) / det;
   vec3 w = vec3(real(1.0) - a - b, a, b);
   bool inside = least(w) >= real(0.0);
   vec3 held = inside ? w : closest_on_border(vec3(1.0, 0.0, 0.0), w, P, u, v);
   vec2 missed = P + u * held.y + v * held.z;
-  if (inside || largest(missed) <= reach) {
+  if (inside || largest(missed) <= tolerance) {
     real z = framed.P0.z + (framed.P1.z - framed.P0.z) * held.y + (framed.P2.z - framed.P0.z) * held.z;
-    keep_nearest(z, held, triangle, part, nearest, hit);
+    keep_nearest(z, held, triangle, subpatch, nearest, hit);
   }
 }
 
 // The quadratic for a node. That of the cage, but for a linear part that moves it onto the surface at the node's
 // centre, to second order: what it strays from there shrinks with the node.
-Fit cage_fit(Shape shape, Triangle tri, Cage cage, Node node, bool whole, INOUT(uint) evaluations) {
+Fit fit_bounds(Shape shape, Triangle tri, SubpatchBounds bounds, Node node, bool whole, INOUT(uint) evaluations) {
   Fit fit;
-  fit.corner = vec3(cage.corner);
-  fit.edge = vec3(cage.edge);
-  fit.stray = cage.corner.w;
-  fit.tangent_stray = cage.edge.w;
-  if (cage.bend == real(0.0) || whole) return fit;
+  fit.corner = vec3(bounds.corner);
+  fit.edge = vec3(bounds.edge);
+  fit.position_error = bounds.corner.w;
+  fit.tangent_error = bounds.edge.w;
+  if (bounds.gradient_lipschitz == real(0.0) || whole) return fit;
   vec3 c = centre_of(node);
   Displacement sigma = displacement_and_derivatives(shape, tri, c);
   ++evaluations;
   real e = sigma.s - blossom(fit.corner, fit.edge, c, c);
   real eu = sigma.u - real(2.0) * blossom(fit.corner, fit.edge, c, vec3(-1.0, 1.0, 0.0));
   real ev = sigma.v - real(2.0) * blossom(fit.corner, fit.edge, c, vec3(-1.0, 0.0, 1.0));
-  raise(fit, c, e, vec2(eu, ev));
+  add_linear(fit, c, e, vec2(eu, ev));
   // No point of a widened node is farther from its centre than this, in the weights 1 and 2: sqrt(5) / 3 of its
   // size.
   real away = real(0.7454) * (real(1.0) + real(3.0) * OVERLAP) * abs(node.size);
-  fit.stray = min(fit.stray, real(0.5) * cage.bend * away * away);
-  fit.tangent_stray = min(fit.tangent_stray, cage.bend * away * (real(1.0) + away));
+  fit.position_error = min(fit.position_error, real(0.5) * bounds.gradient_lipschitz * away * away);
+  fit.tangent_error = min(fit.tangent_error, bounds.gradient_lipschitz * away * (real(1.0) + away));
   return fit;
 }
 
 // Roots of a ray in one part of a patch, from the node walk.path on; the nearest beyond `nearest` that is before
 // walk.hit becomes it. walk.path is WHOLE again at the end, or else where the steps ended. kinks: whether sigma may have
 // one in some part.
-void meet_part(Shape shape, bool kinks, Triangle tri, Cage cage, uint part, RayFrame frame, vec3 view, real nearest,
-               INOUT(Walk) walk) {
-  FramedPatch framed = sheared_patch(frame, turned_patch(frame, shape.shell, tri));
-  real reach = grain(frame, tri);
-  if (walk.path == WHOLE) {
+void intersect_subpatch(Shape shape, bool may_be_nonsmooth, Triangle tri, SubpatchBounds bounds, uint subpatch, RayFrame frame, vec3 view, real nearest,
+               INOUT(Traversal) traversal) {
+  FramedPatch framed = sheared_patch(frame, rotated_patch(frame, shape.shell, tri));
+  real tolerance = position_tolerance(frame, tri);
+  if (traversal.path == WHOLE) {
     real z;
     vec3 weights;
-    uint found = meet_once(shape, tri, cage, framed, view, reach, z, weights, walk.counts.evaluations);
-    if (found == FOUND_ROOT) keep_nearest(z, weights, cage.triangle, part, nearest, walk.hit);
-    if (found != FOUND_NOTHING) return;
+    uint found = intersect_by_newton(shape, tri, bounds, framed, view, tolerance, z, weights, traversal.counts.evaluations);
+    if (found == FOUND_ROOT) keep_nearest(z, weights, bounds.triangle, subpatch, nearest, traversal.hit);
+    if (found != UNDECIDED) return;
   }
-  if (cage.flat_part == 1u) {
-    meet_flat(framed, cage.triangle, part, reach, nearest, walk.hit);
+  if (bounds.is_flat == 1u) {
+    intersect_flat(framed, bounds.triangle, subpatch, tolerance, nearest, traversal.hit);
     return;
   }
-  Node node = node_at(cage.node, walk.path);
+  Node node = node_at(bounds.sub_triangle, traversal.path);
   do {
-    uint evaluations = walk.counts.evaluations;
-    bool last = walk.path >= SMALLEST;
-    Node wide = widened(node);
+    uint evaluations = traversal.counts.evaluations;
+    bool last = traversal.path >= SMALLEST;
+    Node wide = with_overlap(node);
     Fit fit;
     bool near = true;
-    if (kinks && cage.bend == KINKED) {
-      near = ranged_fit(shape, tri, framed, wide, reach, fit, walk.counts.evaluations);
+    if (may_be_nonsmooth && bounds.gradient_lipschitz == NONSMOOTH) {
+      near = ranged_fit(shape, tri, framed, wide, tolerance, fit, traversal.counts.evaluations);
     } else {
-      fit = cage_fit(shape, tri, cage, node, walk.path == WHOLE, walk.counts.evaluations);
+      fit = fit_bounds(shape, tri, bounds, node, traversal.path == WHOLE, traversal.counts.evaluations);
     }
-    Net net = cage_net(framed, fit.corner, fit.edge, wide);
+    ControlNet net = control_net(framed, fit.corner, fit.edge, wide);
     bool divide = false;
-    if (near && near_ray(net, frame.stretch * fit.stray + reach)) {
-      real stray = frame.stretch * fit.tangent_stray * abs(wide.size) / real(3.0);
-      Mean mean = mean_tangents(tangents(net), stray);
-      bool certified = mean.spread < real(1.0);
+    if (near && hull_overlaps_ray(net, frame.stretch * fit.position_error + tolerance)) {
+      real position_error = frame.stretch * fit.tangent_error * abs(wide.size) / real(3.0);
+      MeanJacobian mean = mean_jacobian(tangents(net), position_error);
+      bool certified = mean.contraction_bound < real(1.0);
       // Where the steps must get small but for roundings, and no smaller node is left.
-      bool rough = kinks && cage.bend == KINKED && certified && last;
+      bool rough = may_be_nonsmooth && bounds.gradient_lipschitz == NONSMOOTH && certified && last;
       divide = !certified && !last;
       int starts = divide ? 0 : certified ? 1 : 3;
       vec3 start = certified ? flat_guess(net) : vec3(1.0, 0.0, 0.0);
       for (int k = 0; k < starts; ++k) {
         real z;
         vec3 weights;
-        uint found = newton(shape, tri, cage, framed, wide, mean, certified, rough, reach, start, z, weights,
-                            walk.counts.evaluations);
-        if (found == FOUND_ROOT) keep_nearest(z, weights, cage.triangle, part, nearest, walk.hit);
-        divide = certified && found == FOUND_NOTHING && !last;
+        uint found = newton(shape, tri, bounds, framed, wide, mean, certified, rough, tolerance, start, z, weights,
+                            traversal.counts.evaluations);
+        if (found == FOUND_ROOT) keep_nearest(z, weights, bounds.triangle, subpatch, nearest, traversal.hit);
+        divide = certified && found == UNDECIDED && !last;
         start = vec3(start.z, start.x, start.y);
       }
     }
-    walk.steps -= VISIT_STEPS + int(walk.counts.evaluations - evaluations);
+    traversal.steps -= VISIT_STEPS + int(traversal.counts.evaluations - evaluations);
     if (divide) {
       node = child(node, 0u);
-      walk.path = walk.path << 2;
+      traversal.path = traversal.path << 2;
     } else {
       // On to the next sibling, or that of the nearest ancestor that has one.
-      while ((walk.path & 3u) == 3u) {
+      while ((traversal.path & 3u) == 3u) {
         node = parent(node, 3u);
-        walk.path = walk.path >> 2;
-        --walk.steps;
+        traversal.path = traversal.path >> 2;
+        --traversal.steps;
       }
-      if (walk.path != WHOLE) {
-        node = child(parent(node, walk.path & 3u), (walk.path & 3u) + 1u);
-        ++walk.path;
+      if (traversal.path != WHOLE) {
+        node = child(parent(node, traversal.path & 3u), (traversal.path & 3u) + 1u);
+        ++traversal.path;
       }
     }
-  } while (walk.path != WHOLE && walk.steps > 0);
+  } while (traversal.path != WHOLE && traversal.steps > 0);
 }

@@ -3,21 +3,21 @@
 #ifdef TRISECT_ADDRESSES
 layout(std140, binding = BINDING_ADDRESSES) uniform AddressesBlock { Addresses addresses; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer TrianglesAt { Triangle items[]; };
-layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer CagesAt { Cage items[]; };
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer SubpatchesAt { SubpatchBounds items[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer BvhAt { BvhEntry items[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer WordsAt { vec4 items[]; };
 #define triangles TrianglesAt(uvec2(addresses.triangles_low, addresses.triangles_high)).items
 #define triangle_words WordsAt(uvec2(addresses.triangles_low, addresses.triangles_high)).items
-#define cages CagesAt(uvec2(addresses.cages_low, addresses.cages_high)).items
-#define cage_words WordsAt(uvec2(addresses.cages_low, addresses.cages_high)).items
+#define subpatches SubpatchesAt(uvec2(addresses.subpatches_low, addresses.subpatches_high)).items
+#define subpatch_words WordsAt(uvec2(addresses.subpatches_low, addresses.subpatches_high)).items
 #define bvh BvhAt(uvec2(addresses.bvh_low, addresses.bvh_high)).items
 #else
 layout(std430, binding = BINDING_TRIANGLES) readonly restrict buffer TrianglesBlock { Triangle triangles[]; };
-layout(std430, binding = BINDING_CAGES) readonly restrict buffer CagesBlock { Cage cages[]; };
+layout(std430, binding = BINDING_SUBPATCHES) readonly restrict buffer SubpatchesBlock { SubpatchBounds subpatches[]; };
 #ifdef TRISECT_BVH
 // The same by words, and the tree.
 layout(std430, binding = BINDING_TRIANGLES) readonly restrict buffer TriangleWordsBlock { vec4 triangle_words[]; };
-layout(std430, binding = BINDING_CAGES) readonly restrict buffer CageWordsBlock { vec4 cage_words[]; };
+layout(std430, binding = BINDING_SUBPATCHES) readonly restrict buffer SubpatchWordsBlock { vec4 subpatch_words[]; };
 layout(std430, binding = BINDING_BVH) readonly restrict buffer BvhBlock { BvhEntry bvh[]; };
 #endif
 #endif

@@ -8,25 +8,25 @@ PixelRay shadow_ray(PixelAovs met, vec3 view) {
   real u = met.geometric_u.w;
   vec3 start = vec3(0.0);
   if (met.triangle != NO_TRIANGLE) {
-    start = departure(scene_shape(), triangles[met.triangle], vec3(real(1.0) - u - met.v, u, met.v),
+    start = shadow_ray_origin(scene_shape(), triangles[met.triangle], vec3(real(1.0) - u - met.v, u, met.v),
                       normal_seen(met, view));
   }
   CastRay ray;
   ray.anchor = vec4(start, 0.0);
   ray.direction = params.light;
-  return ray_cast(ray);
+  return ray_of_cast(ray);
 }
 
 // Its walk. Where nothing was met, and where the surface itself turns away from the light, it is through before it
 // begins.
-Walk shadow_walk_begun(PixelAovs met, vec3 view, int steps) {
-  Walk walk = walk_begun(steps);
+Traversal begin_shadow_traversal(PixelAovs met, vec3 view, int steps) {
+  Traversal traversal = begin_traversal(steps);
   bool lit = met.triangle != NO_TRIANGLE && dot3(normal_seen(met, view), vec3(params.light)) > real(0.0);
   if (!lit) {
-    walk.hit.z = NOTHING_MORE;
-    walk.hit.triangle = met.triangle;
+    traversal.hit.z = TRAVERSAL_ENDED;
+    traversal.hit.triangle = met.triangle;
   }
-  return walk;
+  return traversal;
 }
 
 // What a pixel in shadow shows; others stay as they are.

@@ -18,12 +18,12 @@ struct Triangle {
 };
 
 // A part of a displaced triangle, 96 bytes: what the robust solver knows of it before it looks.
-// With triangle weights w the part is w = node.xyz + node.w l, l the weights within the part; its
-// sigma is about the quadratic q with the Bernstein coefficients corner and edge.
-struct Cage {
-  vec4 ball;  // xyz, w: centre and radius of a ball that contains the part
-  vec4 node;  // xyz: weights of the part's origin; w: its size, 1 for the whole, negative if turned
-              // over
+// With triangle weights w the part is w = sub_triangle.xyz + sub_triangle.w l, l the weights within
+// the part; its sigma is about the quadratic q with the Bernstein coefficients corner and edge.
+struct SubpatchBounds {
+  vec4 ball;          // xyz, w: centre and radius of a ball that contains the part
+  vec4 sub_triangle;  // xyz: weights of the part's origin; w: its size, 1 for the whole, negative
+                      // if turned over
   vec4 corner;  // xyz: q(e_0, e_0), q(e_1, e_1), q(e_2, e_2); w: how far S strays from T + q D,
                 // length
   vec4 edge;    // xyz: q(e_0, e_1), q(e_1, e_2), q(e_0, e_2); w: the same of S_u and S_v
@@ -31,11 +31,11 @@ struct Cage {
   // meets the part, enlarged by CONE_MARGIN, twice. w is NO_CONE if nothing is known of any d.
   vec4 cone;
   uint triangle;
-  uint flat_part;  // 1: sigma is 0
-  float bend;  // Lipschitz constant of the gradient of sigma - q in the weights 1 and 2, times |D|;
-               // KINKED if the gradient may jump
-  uint skip;   // a group: how many cages follow that lie within its ball, and it has no part of its
-               // own
+  uint is_flat;              // 1: sigma is 0
+  float gradient_lipschitz;  // Lipschitz constant of the gradient of sigma - q in the weights 1 and
+                             // 2, times |D|; NONSMOOTH if the gradient may jump
+  uint skip;  // a group: how many cages follow that lie within its ball, and it has no part of its
+              // own
 };
 
 // One of the eight children of a node of the tree over the parts' boxes, 32 bytes; node n has
@@ -45,7 +45,7 @@ struct BvhEntry {
   float lo_x;  // of a box that contains the child's parts
   float lo_y;
   float lo_z;
-  uint link;  // first entry of the child's node, BVH_PART + index of the part, or BVH_NOTHING
+  uint link;  // first entry of the child's node, BVH_LEAF + index of the part, or BVH_EMPTY
   float hi_x;
   float hi_y;
   float hi_z;
@@ -54,7 +54,7 @@ struct BvhEntry {
 
 // A part as a frame's camera sees it, 192 bytes, written anew for every frame. Image positions are
 // in pixels, y down, (0, 0) the top left corner.
-struct ViewPart {
+struct ProjectedSubpatch {
   // The part is seen within the box, and on the inner side of three lines: an image position p is
   // outside if lines_x[i] p.x + lines_y[i] p.y > lines_at[i].
   vec4 box;       // least x, least y, largest x, largest y
@@ -62,27 +62,27 @@ struct ViewPart {
   vec4 lines_y;   // xyz; w: index of the triangle, less than 2^24
   vec4 lines_at;  // xyz
   // The patch in the axes of the camera's frame.
-  vec4 P0;  // xyz: vertex; w: Cage::edge.x
+  vec4 P0;  // xyz: vertex; w: SubpatchBounds::edge.x
   vec4 P1;
   vec4 P2;
-  vec4 D0;  // xyz: direction; w: Cage::node.x
+  vec4 D0;  // xyz: direction; w: SubpatchBounds::node.x
   vec4 D1;
   vec4 D2;
-  vec4 cone;   // Cage::cone
-  vec4 sizes;  // x: Cage::node.w; y: the grain of a ray down the axis
+  vec4 cone;   // SubpatchBounds::cone
+  vec4 sizes;  // x: SubpatchBounds::node.w; y: the grain of a ray down the axis
 };
 
 // Where buffers are that are too large to be bound: low and high half of their addresses.
 struct Addresses {
   uint triangles_low;
   uint triangles_high;
-  uint cages_low;
-  uint cages_high;
+  uint subpatches_low;
+  uint subpatches_high;
   uint bvh_low;
   uint bvh_high;
   uint boxes_low;  // of the device's own structure over the parts' boxes
   uint boxes_high;
-  float reach;  // no part is farther from the scene's origin
+  float scene_radius;  // no part is farther from the scene's origin
   uint padding0;
   uint padding1;
   uint padding2;
@@ -112,7 +112,7 @@ struct TraceParams {
   float alpha;       // Phong Tessellation: 0 flat, 1 full projection
   float resolution;  // bisection: 2^-rank, the acceptance tolerance over the chord's length
   float min_delta;   // bisection: smallest acceptance tolerance, world units
-  uint cage_count;
+  uint subpatch_count;
 };
 
 // A kernel ends a ray's walk through the list after so many steps, through or not, and queues what
@@ -121,10 +121,10 @@ struct TraceParams {
 struct PausedRay {
   vec4 hit;  // the nearest root so far: xyz: weights; w: its place along the ray
   uint triangle;
-  uint part;  // of the hit
-  uint ray;   // pixel of the image in raster order, or index of a cast ray
-  uint item;  // of the list or entry of the tree, with which it goes on
-  uint path;  // in a part, the node with which it goes on
+  uint subpatch;  // of the hit
+  uint ray;       // pixel of the image in raster order, or index of a cast ray
+  uint item;      // of the list or entry of the tree, with which it goes on
+  uint path;      // in a part, the node with which it goes on
   uint evaluations;
   uint candidates;
   uint padding;
@@ -140,7 +140,7 @@ struct QueueState {
 
 // Bytes of the structures above and of an entry of the tree.
 const uint TRIANGLE_BYTES = 192u;
-const uint CAGE_BYTES = 96u;
+const uint SUBPATCH_BYTES = 96u;
 const uint BALL_BYTES = 16u;  // of either
 const uint BVH_ENTRY_BYTES = 32u;
 
@@ -215,8 +215,8 @@ const uint NO_TRIANGLE = 4294967295u;
 
 // More than any cosine.
 const float NO_CONE = 2.0;
-// Cage::bend of a part with a kink.
-const float KINKED = -1.0;
+// SubpatchBounds::bend of a part with a kink.
+const float NONSMOOTH = -1.0;
 // A node is searched with so much of its size around it: no root is lost on the border of two
 // nodes.
 const float OVERLAP = 0.03125;
@@ -230,8 +230,8 @@ const float BVH_SLACK = 0.00000095367431640625;  // 2^-20
 // The tree's depth, and nodes that a packet's stack can number.
 const int BVH_LEVELS = 32;
 const uint BVH_MOST_NODES = 16777216u;
-const uint BVH_NOTHING = 0u;
-const uint BVH_PART = 2147483648u;
+const uint BVH_EMPTY = 0u;
+const uint BVH_LEAF = 2147483648u;
 const uint BVH_END = 4294967295u;
 
 // Surfaces: how far a point of the base triangle is displaced.
@@ -264,9 +264,9 @@ const float ERROR_WRONG = -3.0;  // hit, and should not be, or the other way rou
 // Workgroups are TILE_SIZE x TILE_SIZE pixels.
 #define TILE_SIZE 8
 // A tile's list holds so many parts. The rays of one that more parts touch go through all of them.
-#define TILE_PARTS 64
+#define TILE_CAPACITY 64
 // Invocations of a workgroup that each see to one part; rows of tiles that one of them looks at.
-#define PARTS_SIZE 64
+#define SUBPATCH_GROUP_SIZE 64
 #define BIN_ROWS 16
 // Rays that a workgroup casts.
 #define CAST_SIZE 64
@@ -276,15 +276,15 @@ const float ERROR_WRONG = -3.0;  // hit, and should not be, or the other way rou
 #define BINDING_TRIANGLES 1
 #define BINDING_COLOR 2
 #define BINDING_AOVS 3
-#define BINDING_CAGES 4
+#define BINDING_SUBPATCHES 4
 #define BINDING_RAYS 5
 #define BINDING_HITS 6
 #define BINDING_QUEUE 7
 #define BINDING_QUEUED 8
 #define BINDING_PUSH 9  // OpenGL only
-#define BINDING_VIEW_PARTS 10
+#define BINDING_PROJECTED 10
 #define BINDING_TILE_COUNTS 11
-#define BINDING_TILE_PARTS 12
+#define BINDING_TILE_SUBPATCHES 12
 #define BINDING_TILE_ORDER 13
 #define BINDING_TILES_SEEN 14
 #define BINDING_BVH 15
@@ -297,7 +297,7 @@ const float ERROR_WRONG = -3.0;  // hit, and should not be, or the other way rou
 #define CONSTANT_SHELL 2
 #define CONSTANT_SOLVER 3
 #define CONSTANT_COUNTS 4
-#define CONSTANT_GROUPS 5
+#define CONSTANT_DIVIDED 5
 #define CONSTANT_SHADOWS 6
 #define CONSTANT_BALLS 7
-#define CONSTANT_KINKS 8
+#define CONSTANT_NONSMOOTH 8

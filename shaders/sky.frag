@@ -13,6 +13,6 @@
 void main() {
   vec4 color;
   PixelAovs aovs;
-  shade_pixel(pixel_ray(fragment_pixel(0u)), walk_begun(0).hit, color, aovs);
+  shade_pixel(pixel_ray(fragment_pixel(0u)), begin_traversal(0).hit, color, aovs);
   write_fragment(color, aovs);
 }

@@ -32,8 +32,8 @@ struct Node {
 struct Fit {
   vec3 corner;
   vec3 edge;
-  real stray;
-  real tangent_stray;
+  real position_error;
+  real tangent_error;
 };
 
 // A linear function of the weights by its values at a node's corners.
@@ -51,7 +51,7 @@ struct SphereRange {
 };
 
 // Control points of a cubic Bezier triangle, seen along the ray; b_ijk belongs to w_0^i w_1^j w_2^k.
-struct Net {
+struct ControlNet {
   vec2 b300;
   vec2 b030;
   vec2 b003;
@@ -82,30 +82,30 @@ struct Tangents {
 };
 
 // The mean J0 = (u, v) of a node's tangents, over 3, and how far others are from it.
-struct Mean {
+struct MeanJacobian {
   vec2 u;
   vec2 v;
   real area;    // u x v
-  real spread;  // the most by which 1 - J0^-1 J lengthens a vector
+  real contraction_bound;  // the most by which 1 - J0^-1 J lengthens a vector
 };
 
 // The surface at one point, in a ray's frame.
-struct Contact {
+struct SurfacePoint {
   vec3 S;
   vec3 u;
   vec3 v;
 };
 
 // Places along a ray that has met nothing yet, and along one that need not meet anything any more.
-const real NOTHING_YET = real(1e30);
-const real NOTHING_MORE = real(-1e30);
+const real NO_HIT_YET = real(1e30);
+const real TRAVERSAL_ENDED = real(-1e30);
 
 // The nearest root so far.
 struct Hit {
   real z;
   vec3 weights;
   uint triangle;
-  uint part;  // the triangle's part; of two roots at the same place the one in the first part counts
+  uint subpatch;  // the triangle's part; of two roots at the same place the one in the first part counts
 };
 
 // The work done for a ray.
@@ -116,7 +116,7 @@ struct Counts {
 };
 
 // How far a ray has come through the list, of cages or of triangles.
-struct Walk {
+struct Traversal {
   Hit hit;
   Counts counts;
   uint item;  // of the list, the next

@@ -110,7 +110,7 @@ struct HeightRange {
   vec2 root;   // its square root
   vec2 held;   // s_i
   vec2 s;      // before it is held within the limit
-  vec2 reach;  // the limit over |x|
+  vec2 limit_slope;  // the limit over |x|
   vec2 limit;
 };
 
@@ -145,8 +145,8 @@ HeightRange height_range(Triangle tri, int i, Corners T, Corners D, vec2 DD) {
   h.s = root_range(h.A, B, C, h.root);
   // height_limit.
   vec2 size = range_root(max(DD, vec2(real(1e-20))));
-  h.reach = range_quotient(clamp(range_quotient(h.DN, size * FLAT_SINE), vec2(0.0), vec2(1.0)), size);
-  h.limit = h.reach * range_root(h.xx) * vec2(real(1.0) - RANGE_SLACK, real(1.0) + RANGE_SLACK);
+  h.limit_slope = range_quotient(clamp(range_quotient(h.DN, size * FLAT_SINE), vec2(0.0), vec2(1.0)), size);
+  h.limit = h.limit_slope * range_root(h.xx) * vec2(real(1.0) - RANGE_SLACK, real(1.0) + RANGE_SLACK);
   h.held = vec2(h.s.x > real(0.0) ? min(h.s.x, h.limit.x) : max(h.s.x, -h.limit.y),
                 h.s.y > real(0.0) ? min(h.s.y, h.limit.y) : max(h.s.y, -h.limit.x));
   return h;
@@ -159,16 +159,16 @@ vec2 limit_change(HeightRange h, vec3 dT, vec3 dD) {
   real step = length3(dT);
   vec2 away = vec2(-step, step);
   if (far.x > real(0.0)) away = range_both(away, range_quotient(linear_range(h.x, dT), far));
-  vec2 turned = range_product(h.reach, range_quotient(linear_range(h.D, dD), h.DD));
+  vec2 turned = range_product(h.limit_slope, range_quotient(linear_range(h.D, dD), h.DD));
   vec2 sine = range_quotient(h.DN, range_root(h.DD) * FLAT_SINE);
-  vec2 reach_change = vec2(UNBOUNDED, -UNBOUNDED);
-  if (sine.y >= real(1.0)) reach_change = minus(turned);
-  if (sine.x <= real(0.0)) reach_change = joined(reach_change, vec2(0.0));
+  vec2 slope_change = vec2(UNBOUNDED, -UNBOUNDED);
+  if (sine.y >= real(1.0)) slope_change = minus(turned);
+  if (sine.x <= real(0.0)) slope_change = joined(slope_change, vec2(0.0));
   if (sine.x < real(1.0) && sine.y > real(0.0)) {
     vec2 of_sine = range_quotient(vec2(dot3(dD, h.N)), h.DD * FLAT_SINE);
-    reach_change = joined(reach_change, of_sine + minus(turned) * real(2.0));
+    slope_change = joined(slope_change, of_sine + minus(turned) * real(2.0));
   }
-  return range_product(away, h.reach) + range_product(reach_change, far);
+  return range_product(away, h.limit_slope) + range_product(slope_change, far);
 }
 
 // Of s_i's derivative there (sphere_gradient).
@@ -267,10 +267,10 @@ SphereRange sphere_range(Shape shape, Triangle tri, SphereNode over) {
 
 // Whether a node displaced by sigma comes within `reach` of the ray: it lies in the hull of its corners, each displaced
 // by the least and by the largest sigma.
-bool displaced_near_ray(FramedPatch framed, Node node, vec2 sigma, real reach) {
+bool prism_overlaps_ray(FramedPatch framed, Node node, vec2 sigma, real tolerance) {
   Corners T = at_corners(node, framed.P0, framed.P1, framed.P2);
   Corners D = at_corners(node, framed.D0, framed.D1, framed.D2);
-  Net net;
+  ControlNet net;
   net.b300 = vec2(T.a) + vec2(D.a) * sigma.x;
   net.b030 = vec2(T.b) + vec2(D.b) * sigma.x;
   net.b003 = vec2(T.c) + vec2(D.c) * sigma.x;
@@ -281,34 +281,34 @@ bool displaced_near_ray(FramedPatch framed, Node node, vec2 sigma, real reach) {
   net.b102 = net.b021;
   net.b201 = net.b021;
   net.b111 = net.b021;
-  return near_ray(net, reach) && !beside(net, vec2(D.a) + vec2(D.b) + vec2(D.c), reach);
+  return hull_overlaps_ray(net, tolerance) && !separated_along(net, vec2(D.a) + vec2(D.b) + vec2(D.c), tolerance);
 }
 
 // Whether a node of a part with a kink comes within `reach` of the ray, as far as sigma's range tells, and if it does a
 // quadratic for it: linear, with the middles of the derivatives' ranges, or constant.
-bool ranged_fit(Shape shape, Triangle tri, FramedPatch framed, Node node, real reach, OUT(Fit) fit,
+bool ranged_fit(Shape shape, Triangle tri, FramedPatch framed, Node node, real tolerance, OUT(Fit) fit,
                 INOUT(uint) evaluations) {
   SphereNode over = sphere_node(shape, tri, node);
   SphereRange sigma = sphere_range(shape, tri, over);
   real D = longest(over.D);
   fit.corner = vec3(real(0.5) * (sigma.s.x + sigma.s.y));
   fit.edge = fit.corner;
-  fit.stray = real(0.5) * (sigma.s.y - sigma.s.x) * D;
-  fit.tangent_stray = UNBOUNDED;
-  if (!displaced_near_ray(framed, node, sigma.s, reach)) return false;
+  fit.position_error = real(0.5) * (sigma.s.y - sigma.s.x) * D;
+  fit.tangent_error = UNBOUNDED;
+  if (!prism_overlaps_ray(framed, node, sigma.s, tolerance)) return false;
   if (sigma.u.y >= UNBOUNDED) return true;
   vec3 c = centre_of(node);
   vec2 middle = vec2(sigma.u.x + sigma.u.y, sigma.v.x + sigma.v.y) * real(0.5);
   vec2 off = vec2(sigma.u.y - sigma.u.x, sigma.v.y - sigma.v.x) * real(0.5);
   fit.corner = vec3(0.0);
   fit.edge = vec3(0.0);
-  raise(fit, c, displacement(shape, tri, c), middle);
+  add_linear(fit, c, displacement(shape, tri, c), middle);
   ++evaluations;
   // From the centre to a corner one of the weights 1 and 2 changes by a third of the size and the other by two, or both
   // by a third.
-  real stray = (off.x + off.y + largest(off)) * abs(node.size) / real(3.0);
+  real position_error = (off.x + off.y + largest(off)) * abs(node.size) / real(3.0);
   real turned = max(length3(direction_change(shape, tri, 1)), length3(direction_change(shape, tri, 2)));
-  fit.stray = stray * D;
-  fit.tangent_stray = largest(off) * D + stray * turned;
+  fit.position_error = position_error * D;
+  fit.tangent_error = largest(off) * D + position_error * turned;
   return true;
 }

@@ -22,17 +22,17 @@ vec3 child_shift(uint k, real half_size) {
 // The part of the patch that a corner's child, k = 0, 1, 2, or the middle one, k = 3, covers.
 Node child(Node node, uint k) {
   real half_size = real(0.5) * node.size;
-  Node part;
-  part.origin = node.origin + child_shift(k, half_size);
-  part.size = k == 3u ? -half_size : half_size;
-  return part;
+  Node subpatch;
+  subpatch.origin = node.origin + child_shift(k, half_size);
+  subpatch.size = k == 3u ? -half_size : half_size;
+  return subpatch;
 }
 
 // The node whose child k this is.
-Node parent(Node part, uint k) {
-  real half_size = k == 3u ? -part.size : part.size;
+Node parent(Node subpatch, uint k) {
+  real half_size = k == 3u ? -subpatch.size : subpatch.size;
   Node node;
-  node.origin = part.origin - child_shift(k, half_size);
+  node.origin = subpatch.origin - child_shift(k, half_size);
   node.size = real(2.0) * half_size;
   return node;
 }
@@ -42,10 +42,10 @@ const uint WHOLE = 1u;
 const uint SMALLEST = 1u << 18;
 
 // The node of a part, origin + size l of its patch, to which a path leads.
-Node node_at(vec4 part, uint path) {
+Node node_at(vec4 subpatch, uint path) {
   Node node;
-  node.origin = vec3(part);
-  node.size = part.w;
+  node.origin = vec3(subpatch);
+  node.size = subpatch.w;
   int level = 0;
   while (path >> (2 * level) != WHOLE) ++level;
   for (int k = level - 1; k >= 0; --k) node = child(node, (path >> (2 * k)) & 3u);
@@ -63,7 +63,7 @@ real blossom(vec3 corner, vec3 edge, vec3 a, vec3 b) {
 vec3 centre_of(Node node) { return node.origin + vec3(node.size / real(3.0)); }
 
 // Adds the linear function that is `e` at weights c and has this gradient.
-void raise(INOUT(Fit) fit, vec3 c, real e, vec2 gradient) {
+void add_linear(INOUT(Fit) fit, vec3 c, real e, vec2 gradient) {
   // At the patch's vertices.
   real at0 = e - gradient.x * c.y - gradient.y * c.z;
   real at1 = at0 + gradient.x;
@@ -73,7 +73,7 @@ void raise(INOUT(Fit) fit, vec3 c, real e, vec2 gradient) {
 }
 
 // Control points of T + q D over a node.
-Net cage_net(FramedPatch framed, vec3 corner, vec3 edge, Node node) {
+ControlNet control_net(FramedPatch framed, vec3 corner, vec3 edge, Node node) {
   vec3 a = weights_of(node, vec3(1.0, 0.0, 0.0));
   vec3 b = weights_of(node, vec3(0.0, 1.0, 0.0));
   vec3 c = weights_of(node, vec3(0.0, 0.0, 1.0));
@@ -96,7 +96,7 @@ Net cage_net(FramedPatch framed, vec3 corner, vec3 edge, Node node) {
   real qbc = blossom(corner, edge, b, c);
   real qca = blossom(corner, edge, c, a);
   const real third = real(1.0) / real(3.0);
-  EXACT Net net;
+  EXACT ControlNet net;
   net.b300 = Ta + Da * qaa;
   net.b030 = Tb + Db * qbb;
   net.b003 = Tc + Dc * qcc;
@@ -112,7 +112,7 @@ Net cage_net(FramedPatch framed, vec3 corner, vec3 edge, Node node) {
 
 // Whether the control points, and with them the cage, stay farther than `reach` on one side of the ray, in the
 // direction across a.
-bool beside(Net net, vec2 a, real reach) {
+bool separated_along(ControlNet net, vec2 a, real tolerance) {
   real c0 = cross2(net.b300, a);
   real c1 = cross2(net.b030, a);
   real c2 = cross2(net.b003, a);
@@ -126,23 +126,23 @@ bool beside(Net net, vec2 a, real reach) {
   real low = min(min(min(min(c0, c1), min(c2, c3)), min(min(c4, c5), min(c6, c7))), min(c8, c9));
   real high = max(max(max(max(c0, c1), max(c2, c3)), max(max(c4, c5), max(c6, c7))), max(c8, c9));
   // |a x b| of the b within reach of the ray, and rounding.
-  real most = reach * (abs(a.x) + abs(a.y)) + real(1e-6) * max(abs(low), abs(high));
+  real most = tolerance * (abs(a.x) + abs(a.y)) + real(1e-6) * max(abs(low), abs(high));
   return low > most || high < -most;
 }
 
 // Whether the cage comes within `reach` of the ray, as far as its extents across the triangle's edges, and along the
 // median between two of them, tell.
-bool near_ray(Net net, real reach) {
+bool hull_overlaps_ray(ControlNet net, real tolerance) {
   vec2 a = net.b030 - net.b300;
   vec2 b = net.b003 - net.b300;
-  return !(beside(net, a, reach) || beside(net, b, reach) || beside(net, b - a, reach) ||
-           beside(net, vec2(-a.y - b.y, a.x + b.x), reach));
+  return !(separated_along(net, a, tolerance) || separated_along(net, b, tolerance) || separated_along(net, b - a, tolerance) ||
+           separated_along(net, vec2(-a.y - b.y, a.x + b.x), tolerance));
 }
 
 // J0^-1 a.
-vec2 weights_for(Mean mean, vec2 a) { return vec2(cross2(a, mean.v), cross2(mean.u, a)) / mean.area; }
+vec2 weights_for(MeanJacobian mean, vec2 a) { return vec2(cross2(a, mean.v), cross2(mean.u, a)) / mean.area; }
 
-Tangents tangents(Net net) {
+Tangents tangents(ControlNet net) {
   Tangents t;
   t.u0 = net.b210 - net.b300;
   t.u1 = net.b030 - net.b120;
@@ -160,7 +160,7 @@ Tangents tangents(Net net) {
 }
 
 // By how much 1 - J0^-1 (u, v) lengthens a vector at most, lengths measured by the largest component.
-real apart(Mean mean, vec2 u, vec2 v) {
+real contraction_of(MeanJacobian mean, vec2 u, vec2 v) {
   vec2 column_u = weights_for(mean, u);
   vec2 column_v = weights_for(mean, v);
   return max(abs(real(1.0) - column_u.x) + abs(column_v.x), abs(column_u.y) + abs(real(1.0) - column_v.y));
@@ -176,26 +176,26 @@ real longest_component(Tangents t) {
 // S_v are the same convex combination of the u_i and the v_i, but for `stray`, the most by which S_u / 3 and S_v / 3
 // differ from the cage's. Where `spread` is less than 1 no line along z meets the node twice: from p to q S changes by
 // J (q - p), J the mean along the way, which is no farther from J0.
-Mean mean_tangents(Tangents t, real stray) {
+MeanJacobian mean_jacobian(Tangents t, real position_error) {
   const real sixth = real(1.0) / real(6.0);
-  EXACT Mean mean;
+  EXACT MeanJacobian mean;
   mean.u = (t.u0 + t.u1 + (t.u2 + t.u3) + (t.u4 + t.u5)) * sixth;
   mean.v = (t.v0 + t.v1 + (t.v2 + t.v3) + (t.v4 + t.v5)) * sixth;
   mean.area = cross2(mean.u, mean.v);
-  EXACT real spread = max(max(max(apart(mean, t.u0, t.v0), apart(mean, t.u1, t.v1)),
-                              max(apart(mean, t.u2, t.v2), apart(mean, t.u3, t.v3))),
-                          max(apart(mean, t.u4, t.v4), apart(mean, t.u5, t.v5)));
+  EXACT real contraction_bound = max(max(max(contraction_of(mean, t.u0, t.v0), contraction_of(mean, t.u1, t.v1)),
+                              max(contraction_of(mean, t.u2, t.v2), contraction_of(mean, t.u3, t.v3))),
+                          max(contraction_of(mean, t.u4, t.v4), contraction_of(mean, t.u5, t.v5)));
   // |a x b| <= |a| |b|, the lengths at most sqrt(2) times their largest component; two columns; and rounding.
   EXACT real longest = longest_component(t);
-  mean.spread = spread + (real(2.83) * stray * longest + real(1e-6) * longest * longest) / abs(mean.area);
+  mean.contraction_bound = contraction_bound + (real(2.83) * position_error * longest + real(1e-6) * longest * longest) / abs(mean.area);
   return mean;
 }
 
 // Whether the root cannot be in the node, given a point of it with weights l within it and S = f there: it lies at
 // l - J^-1 f, which differs from l - J0^-1 f by spread / (1 - spread) of that step at most. `margin`: weights.
-bool excludes(Mean mean, vec2 f, vec3 l, real margin) {
+bool newton_excludes(MeanJacobian mean, vec2 f, vec3 l, real margin) {
   vec2 step = weights_for(mean, f) * (real(1.0) / real(3.0));
-  real off = mean.spread / (real(1.0) - mean.spread) * largest(step);
+  real off = mean.contraction_bound / (real(1.0) - mean.contraction_bound) * largest(step);
   return l.y - step.x + off < -margin || l.z - step.y + off < -margin ||
          l.x + step.x + step.y + real(2.0) * off < -margin;
 }

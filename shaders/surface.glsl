@@ -284,7 +284,7 @@ vec3 geometric_normal(Shape shape, Triangle tri, vec3 w) {
 // Where a ray leaves the surface that starts at the point with weights w, toward a light on the side of the geometric
 // normal n: above it by more than roundings put the point below, so that the ray does not meet the surface it leaves. The
 // surface bends toward the ray where it is concave; there it is met, farther off.
-vec3 departure(Shape shape, Triangle tri, vec3 w, vec3 n) {
+vec3 shadow_ray_origin(Shape shape, Triangle tri, vec3 w, vec3 n) {
   EXACT vec3 point = surface_point(shape, tri, w);
   return point + n * (real(4.0) * ROUNDINGS * farthest(point, tri));
 }

@@ -21,7 +21,7 @@ void main() {
   hit.z = length3(from_eye);
   hit.weights = weights;
   hit.triangle = triangle;
-  hit.part = 0u;
+  hit.subpatch = 0u;
   vec4 color;
   PixelAovs aovs;
   shade_pixel(ray, hit, color, aovs);

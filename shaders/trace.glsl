@@ -1,6 +1,6 @@
-// One ray's way through the patches, and its outputs. Which patches those are say every_part.glsl, tile_parts.glsl or
+// One ray's way through the patches, and its outputs. Which patches those are say every_part.glsl, tile_subpatches.glsl or
 // bvh_parts.glsl: one of them is included ahead. Reads params, triangles and cages; SURFACE, SHELL, SOLVER, AOVS, COUNTS,
-// GROUPS, KINKS and SHADOWS are constants.
+// DIVIDED, MAY_BE_NONSMOOTH and SHADOWS are constants.
 
 Shape scene_shape() {
   Shape shape;
@@ -10,50 +10,50 @@ Shape scene_shape() {
   return shape;
 }
 
-// Iterations of the loops of walk_bisect in one pass.
+// Iterations of the loops of traverse_bisect in one pass.
 const uint BISECT_STEPS = 65000u;
 
 // Of the three corners of a triangle.
 const uint CORNERS_BYTES = 48u;
 
 // A walk through nothing yet.
-Walk walk_begun(int steps) {
-  Walk walk;
-  walk.hit.z = NOTHING_YET;
-  walk.hit.weights = vec3(0.0);
-  walk.hit.triangle = NO_TRIANGLE;
-  walk.hit.part = NO_TRIANGLE;
-  walk.counts.evaluations = 0u;
-  walk.counts.candidates = 0u;
-  walk.counts.bytes = 0u;
-  walk.item = 0u;
-  walk.path = WHOLE;
-  walk.steps = steps;
-  return walk;
+Traversal begin_traversal(int steps) {
+  Traversal traversal;
+  traversal.hit.z = NO_HIT_YET;
+  traversal.hit.weights = vec3(0.0);
+  traversal.hit.triangle = NO_TRIANGLE;
+  traversal.hit.subpatch = NO_TRIANGLE;
+  traversal.counts.evaluations = 0u;
+  traversal.counts.candidates = 0u;
+  traversal.counts.bytes = 0u;
+  traversal.item = 0u;
+  traversal.path = WHOLE;
+  traversal.steps = steps;
+  return traversal;
 }
 
 // Whatever is in the way makes a shadow.
-void end_in_shadow(INOUT(Walk) walk) {
-  if (!SHADOWS || walk.hit.triangle == NO_TRIANGLE) return;
-  walk.hit.z = NOTHING_MORE;
-  walk.path = WHOLE;
+void end_in_shadow(INOUT(Traversal) traversal) {
+  if (!SHADOWS || traversal.hit.triangle == NO_TRIANGLE) return;
+  traversal.hit.z = TRAVERSAL_ENDED;
+  traversal.path = WHOLE;
 }
 
-bool is_through(PixelRay ray, Walk walk) {
-  if (SHADOWS && walk.hit.z == NOTHING_MORE) return true;
-  return SOLVER == SOLVER_ROBUST ? no_parts_left(ray, walk.item) : walk.item >= params.triangle_count;
+bool is_finished(PixelRay ray, Traversal traversal) {
+  if (SHADOWS && traversal.hit.z == TRAVERSAL_ENDED) return true;
+  return SOLVER == SOLVER_ROBUST ? no_candidates_left(ray, traversal.item) : traversal.item >= params.triangle_count;
 }
 
 // The thesis's loop. hit.z counts from the near point. All rays take the same triangles at the same time, as many
 // in each pass as their loops' iterations allow: drivers load faster what does not differ from ray to ray.
-void walk_bisect(PixelRay ray, uint pass, INOUT(Walk) walk) {
+void traverse_bisect(PixelRay ray, uint pass, INOUT(Traversal) traversal) {
   uint share = BISECT_STEPS / (params.rank + 4u);
   uint end = min((pass + 1u) * share, params.triangle_count);
   for (uint t = pass * share; t < end; ++t) {
-    real cdepth = min(walk.hit.z, ray.far_depth);
+    real cdepth = min(traversal.hit.z, ray.far_depth);
     real depth;
     vec3 weights;
-    if (COUNTS) walk.counts.bytes += SURFACE == SURFACE_FLAT ? CORNERS_BYTES : BALL_BYTES;
+    if (COUNTS) traversal.counts.bytes += SURFACE == SURFACE_FLAT ? CORNERS_BYTES : BALL_BYTES;
     if (SURFACE == SURFACE_FLAT) {
       if (!hit_flat(triangles[t], ray.near_point, ray.view, cdepth, depth, weights)) continue;
     } else {
@@ -61,67 +61,67 @@ void walk_bisect(PixelRay ray, uint pass, INOUT(Walk) walk) {
       vec2 bounds = rsi(ray.near_point - vec3(domain), ray.view, domain.w);
       if (!chord_ahead(bounds)) continue;
       if (COUNTS) {
-        ++walk.counts.candidates;
-        walk.counts.evaluations += params.rank - 1u;
-        walk.counts.bytes += TRIANGLE_BYTES - BALL_BYTES;
+        ++traversal.counts.candidates;
+        traversal.counts.evaluations += params.rank - 1u;
+        traversal.counts.bytes += TRIANGLE_BYTES - BALL_BYTES;
       }
       if (!bisect(scene_shape(), triangles[t], bounds, ray.near_point, ray.view, int(params.rank),
                   params.resolution, params.min_delta, cdepth, depth, weights))
         continue;
     }
-    walk.hit.z = depth;
-    walk.hit.weights = weights;
-    walk.hit.triangle = t;
+    traversal.hit.z = depth;
+    traversal.hit.weights = weights;
+    traversal.hit.triangle = t;
   }
-  walk.item = end;
+  traversal.item = end;
 }
 
 // The parts that the ray comes near, until none is left. hit.z is in the ray's frame.
-void walk_robust(PixelRay ray, INOUT(Walk) walk) {
-  while (!is_through(ray, walk) && walk.steps > 0) {
+void traverse_robust(PixelRay ray, INOUT(Traversal) traversal) {
+  while (!is_finished(ray, traversal) && traversal.steps > 0) {
     // Parts that the ray passes by are passed in a loop of their own: a loop that holds the search below would go
     // through all of it, masked, for each of them.
-    uint part = find_part(ray, walk);
-    if (part != NO_TRIANGLE) {
-      if (COUNTS && walk.path == WHOLE) ++walk.counts.candidates;
-      if (COUNTS) walk.counts.bytes += TRIANGLE_BYTES + CAGE_BYTES;
-      meet_part(scene_shape(), KINKS, triangles[cages[part].triangle], cages[part], part, ray.frame, ray.view, ray.nearest,
-                walk);
-      end_in_shadow(walk);
-      if (walk.path == WHOLE) walk.item = item_after(walk.item);
+    uint subpatch = find_candidate(ray, traversal);
+    if (subpatch != NO_TRIANGLE) {
+      if (COUNTS && traversal.path == WHOLE) ++traversal.counts.candidates;
+      if (COUNTS) traversal.counts.bytes += TRIANGLE_BYTES + SUBPATCH_BYTES;
+      intersect_subpatch(scene_shape(), MAY_BE_NONSMOOTH, triangles[subpatches[subpatch].triangle], subpatches[subpatch], subpatch, ray.frame, ray.view, ray.nearest,
+                traversal);
+      end_in_shadow(traversal);
+      if (traversal.path == WHOLE) traversal.item = next_item(traversal.item);
     }
-    walk.steps -= VISIT_STEPS;
+    traversal.steps -= VISIT_STEPS;
   }
 }
 
 // Goes on, for the pass-th time, until the walk is through or the steps of a pass are used.
-void go_on(PixelRay ray, uint pass, INOUT(Walk) walk) {
+void resume(PixelRay ray, uint pass, INOUT(Traversal) traversal) {
   if (SOLVER == SOLVER_ROBUST) {
-    walk_robust(ray, walk);
+    traverse_robust(ray, traversal);
   } else {
-    walk_bisect(ray, pass, walk);
+    traverse_bisect(ray, pass, traversal);
   }
 }
 
 // What a walk that is through has met, its z the distance from the eye.
-Hit met_by(PixelRay ray, Walk walk) {
-  Hit hit = walk.hit;
+Hit hit_of(PixelRay ray, Traversal traversal) {
+  Hit hit = traversal.hit;
   hit.z = SOLVER == SOLVER_ROBUST ? ray.axis + (ray.beyond_axis + ray.frame.stretch * hit.z)
                                   : ray.near_distance + hit.z;
   return hit;
 }
 
 // The output of a cast ray whose walk is through.
-CastHit hit_cast(PixelRay ray, Walk walk) {
-  Hit hit = met_by(ray, walk);
+CastHit cast_result(PixelRay ray, Traversal traversal) {
+  Hit hit = hit_of(ray, traversal);
   bool met = hit.triangle != NO_TRIANGLE;
   CastHit result;
   result.z = met ? hit.z : real(0.0);
   result.u = hit.weights.y;
   result.v = hit.weights.z;
   result.triangle = hit.triangle;
-  result.evaluations = walk.counts.evaluations;
-  result.candidates = walk.counts.candidates;
+  result.evaluations = traversal.counts.evaluations;
+  result.candidates = traversal.counts.candidates;
   result.padding0 = 0u;
   result.padding1 = 0u;
   return result;
@@ -151,8 +151,8 @@ void shade_pixel(PixelRay ray, Hit hit, OUT(vec4) color, OUT(PixelAovs) aovs) {
 }
 
 // The outputs of a pixel whose walk is through.
-void finish_pixel(PixelRay ray, Walk walk, OUT(vec4) color, OUT(PixelAovs) aovs) {
-  shade_pixel(ray, met_by(ray, walk), color, aovs);
-  aovs.evaluations = walk.counts.evaluations;
-  aovs.candidates = walk.counts.candidates;
+void finish_pixel(PixelRay ray, Traversal traversal, OUT(vec4) color, OUT(PixelAovs) aovs) {
+  shade_pixel(ray, hit_of(ray, traversal), color, aovs);
+  aovs.evaluations = traversal.counts.evaluations;
+  aovs.candidates = traversal.counts.candidates;
 }

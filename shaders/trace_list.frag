@@ -23,22 +23,22 @@ void main() {
   // first_group is the band's lowest row.
   uvec2 pixel = fragment_pixel(push.first_group);
   uint index = (pixel.y - push.first_row) * params.width + pixel.x;
-  precise Walk walk = walk_begun(int(push.queue.steps));
+  precise Traversal traversal = begin_traversal(int(push.queue.steps));
   if (push.queue.pass > 0u) {
     if (paused[index].path == NOWHERE) discard;
-    walk = resumed_walk(index, walk.steps);
+    traversal = resumed_traversal(index, traversal.steps);
   }
   precise PixelRay ray = ray_through(to_near, across);
-  go_on(ray, push.queue.pass, walk);
-  count_bytes(walk);
-  if (!is_through(ray, walk)) {
-    pause(index, index, walk);
+  resume(ray, push.queue.pass, traversal);
+  count_bytes(traversal);
+  if (!is_finished(ray, traversal)) {
+    pause(index, index, traversal);
     atomicAdd(state.queued, 1u);
     discard;
   }
   if (push.queue.pass > 0u) paused[index].path = NOWHERE;
   precise vec4 color;
   precise PixelAovs aovs;
-  finish_pixel(ray, walk, color, aovs);
+  finish_pixel(ray, traversal, color, aovs);
   write_fragment(color, aovs);
 }

@@ -13,27 +13,27 @@ uvec2 new_pixel() {
 }
 
 void main() {
-  precise Walk walk = walk_begun(int(push.queue.steps));
+  precise Traversal traversal = begin_traversal(int(push.queue.steps));
   uvec2 pixel;
   if (push.queue.pass == 0u) {
     pixel = new_pixel();
     if (pixel.x >= params.width || pixel.y >= params.height) return;
-    walk = walk_of(pixel, walk.steps);
+    traversal = begin_pixel_traversal(pixel, traversal.steps);
   } else {
     uint invocation = gl_WorkGroupID.x * TILE_SIZE * TILE_SIZE + gl_LocalInvocationIndex;
     if (invocation >= push.queue.resumed) return;
     uint place = push.queue.from + invocation;
-    walk = resumed_walk(place, walk.steps);
+    traversal = resumed_traversal(place, traversal.steps);
     uint index = paused[place].ray;
     pixel = uvec2(index % params.width, index / params.width);
   }
   precise PixelRay ray = ray_of(pixel);
   ray.tile = tile_of(pixel);
-  go_on(ray, push.queue.pass, walk);
-  count_bytes(walk);
-  if (!is_through(ray, walk)) {
-    enqueue(pixel.y * params.width + pixel.x, walk);
+  resume(ray, push.queue.pass, traversal);
+  count_bytes(traversal);
+  if (!is_finished(ray, traversal)) {
+    enqueue(pixel.y * params.width + pixel.x, traversal);
     return;
   }
-  write_pixel(pixel, ray, walk);
+  write_pixel(pixel, ray, traversal);
 }

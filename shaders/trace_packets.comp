@@ -24,15 +24,15 @@ layout(local_size_x = TILE_SIZE * TILE_SIZE) in;
 #include "packets.glsl"
 
 // One part, all rays of the subgroup.
-void meet(uint part, PixelRay ray, bool here, inout Walk walk, inout bool undecided) {
-  precise Cage cage;
+void meet(uint subpatch, PixelRay ray, bool here, inout Traversal traversal, inout bool undecided) {
+  precise SubpatchBounds bounds;
   precise Triangle tri;
-  load_by_all(part, cage, tri);
-  precise FramedPatch framed = sheared_patch(ray.frame, turned_patch(ray.frame, SHELL, tri));
-  float reach = grain(ray.frame, tri);
-  Net net = cage_net(framed, cage.corner.xyz, cage.edge.xyz, widened(node_at(cage.node, WHOLE)));
-  here = here && near_ray(net, ray.frame.stretch * cage.corner.w + reach);
-  meet_quickly(tri, cage.triangle, cage, framed, part, ray, reach, here, walk, undecided);
+  load_by_all(subpatch, bounds, tri);
+  precise FramedPatch framed = sheared_patch(ray.frame, rotated_patch(ray.frame, SHELL, tri));
+  float tolerance = position_tolerance(ray.frame, tri);
+  ControlNet net = control_net(framed, bounds.corner.xyz, bounds.edge.xyz, with_overlap(node_at(bounds.sub_triangle, WHOLE)));
+  here = here && hull_overlaps_ray(net, ray.frame.stretch * bounds.corner.w + tolerance);
+  intersect_quickly(tri, bounds.triangle, bounds, framed, subpatch, ray, tolerance, here, traversal, undecided);
 }
 
 void main() {
@@ -40,24 +40,24 @@ void main() {
   uint columns = tiles_across(params.width);
   uvec2 pixel = uvec2(tile % columns, tile / columns) * TILE_SIZE + pixel_in_tile(gl_LocalInvocationIndex);
   precise PixelRay ray = ray_of(pixel);
-  precise Walk walk = walk_of(pixel, 0);
-  Packet packet = packet_of(ray, walk.hit.z != NOTHING_MORE);
+  precise Traversal traversal = begin_pixel_traversal(pixel, 0);
+  Packet packet = packet_of(ray, traversal.hit.z != TRAVERSAL_ENDED);
   bool undecided = false;
   Descent descent = descent_begun(packet);
   bool here;
-  uint part;
+  uint subpatch;
   do {
-    part = next_part(packet, ray, walk.hit.z, descent, here);
-    if (part != NO_TRIANGLE) meet(part, ray, here, walk, undecided);
-    end_in_shadow(walk);
-  } while (part != NO_TRIANGLE);
-  undecided = (undecided || descent.steps <= 0) && walk.hit.z != NOTHING_MORE;
+    subpatch = next_part(packet, ray, traversal.hit.z, descent, here);
+    if (subpatch != NO_TRIANGLE) meet(subpatch, ray, here, traversal, undecided);
+    end_in_shadow(traversal);
+  } while (subpatch != NO_TRIANGLE);
+  undecided = (undecided || descent.steps <= 0) && traversal.hit.z != TRAVERSAL_ENDED;
   if (pixel.x >= params.width || pixel.y >= params.height) return;
-  walk.counts.bytes = descent.bytes;
-  count_bytes(walk);
+  traversal.counts.bytes = descent.bytes;
+  count_bytes(traversal);
   if (undecided) {
-    enqueue(pixel.y * params.width + pixel.x, walk);
+    enqueue(pixel.y * params.width + pixel.x, traversal);
     return;
   }
-  write_pixel(pixel, ray, walk);
+  write_pixel(pixel, ray, traversal);
 }

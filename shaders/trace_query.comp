@@ -20,40 +20,40 @@ layout(local_size_x = TILE_SIZE * TILE_SIZE) in;
 #include "queue.glsl"
 
 // Goes through all boxes. Returns false if the steps did not last.
-bool walk_query(PixelRay ray, inout Walk walk) {
+bool traverse_query(PixelRay ray, inout Traversal traversal) {
   // From where the ray comes into the scene's ball, about which positions count: however far away it began, its first
   // point has the digits of the scene.
   float middle = -dot(ray.anchor, ray.view);
-  float begin = max(ray.frame.stretch * ray.nearest, middle - addresses.reach);
-  float end = min(ray.frame.stretch * walk.hit.z, middle + addresses.reach);
+  float begin = max(ray.frame.stretch * ray.nearest, middle - addresses.scene_radius);
+  float end = min(ray.frame.stretch * traversal.hit.z, middle + addresses.scene_radius);
   if (!(begin < end)) return true;
   // What boxes of hits so near may still hold a hit at the same place.
-  float slack = BVH_SLACK * (addresses.reach + length(ray.anchor));
+  float slack = BVH_SLACK * (addresses.scene_radius + length(ray.anchor));
   float limit = end - begin + slack;
   rayQueryEXT query;
   rayQueryInitializeEXT(query, accelerationStructureEXT(uvec2(addresses.boxes_low, addresses.boxes_high)),
                         gl_RayFlagsNoneEXT, 0xFFu, ray.anchor + ray.view * begin, 0.0, ray.view, limit);
   while (rayQueryProceedEXT(query)) {
-    uint part = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
-    if (GROUPS && cages[part].skip > 0u) continue;
+    uint subpatch = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
+    if (DIVIDED && subpatches[subpatch].skip > 0u) continue;
     if (COUNTS) {
-      ++walk.counts.candidates;
-      walk.counts.bytes += TRIANGLE_BYTES + CAGE_BYTES;
+      ++traversal.counts.candidates;
+      traversal.counts.bytes += TRIANGLE_BYTES + SUBPATCH_BYTES;
     }
-    precise Cage cage = cages[part];
-    precise Triangle tri = triangles[cage.triangle];
-    meet_part(scene_shape(), KINKS, tri, cage, part, ray.frame, ray.view, ray.nearest, walk);
-    end_in_shadow(walk);
-    walk.steps -= VISIT_STEPS;
-    if (walk.path != WHOLE || walk.steps <= 0) {
+    precise SubpatchBounds bounds = subpatches[subpatch];
+    precise Triangle tri = triangles[bounds.triangle];
+    intersect_subpatch(scene_shape(), MAY_BE_NONSMOOTH, tri, bounds, subpatch, ray.frame, ray.view, ray.nearest, traversal);
+    end_in_shadow(traversal);
+    traversal.steps -= VISIT_STEPS;
+    if (traversal.path != WHOLE || traversal.steps <= 0) {
       rayQueryTerminateEXT(query);
       return false;
     }
-    if (walk.hit.z == NOTHING_MORE) {
+    if (traversal.hit.z == TRAVERSAL_ENDED) {
       rayQueryTerminateEXT(query);
       return true;
     }
-    float now = ray.frame.stretch * walk.hit.z - begin + slack;
+    float now = ray.frame.stretch * traversal.hit.z - begin + slack;
     if (now < limit) {
       limit = max(now, 0.0);
       rayQueryGenerateIntersectionEXT(query, limit);
@@ -68,13 +68,13 @@ void main() {
   uvec2 pixel = uvec2(tile % columns, tile / columns) * TILE_SIZE + pixel_in_tile(gl_LocalInvocationIndex);
   if (pixel.x >= params.width || pixel.y >= params.height) return;
   precise PixelRay ray = ray_of(pixel);
-  precise Walk walk = walk_of(pixel, int(push.queue.steps));
-  bool through = walk.hit.z == NOTHING_MORE || walk_query(ray, walk);
-  count_bytes(walk);
+  precise Traversal traversal = begin_pixel_traversal(pixel, int(push.queue.steps));
+  bool through = traversal.hit.z == TRAVERSAL_ENDED || traverse_query(ray, traversal);
+  count_bytes(traversal);
   if (!through) {
-    walk.path = WHOLE;
-    enqueue(pixel.y * params.width + pixel.x, walk);
+    traversal.path = WHOLE;
+    enqueue(pixel.y * params.width + pixel.x, traversal);
     return;
   }
-  write_pixel(pixel, ray, walk);
+  write_pixel(pixel, ray, traversal);
 }

@@ -11,7 +11,7 @@
 layout(local_size_x = TILE_SIZE * TILE_SIZE) in;
 
 #include "frame_buffers.glsl"
-layout(std430, binding = BINDING_VIEW_PARTS) readonly restrict buffer ViewPartsBlock { vec4 view_words[]; };
+layout(std430, binding = BINDING_PROJECTED) readonly restrict buffer ProjectedBlock { vec4 projected_words[]; };
 
 #include "rays.glsl"
 #include "tile_candidates.glsl"
@@ -23,7 +23,7 @@ layout(std430, binding = BINDING_VIEW_PARTS) readonly restrict buffer ViewPartsB
 
 layout(std430, binding = BINDING_TILE_ORDER) readonly restrict buffer TileOrderBlock { uint tile_order[]; };
 
-// Words of vec4 of a ViewPart, and the first of its patch.
+// Words of vec4 of a ProjectedSubpatch, and the first of its patch.
 const uint VIEW_WORDS = 12u;
 const uint PATCH_WORD = 4u;
 
@@ -34,39 +34,39 @@ const uint VIEW_BYTES = 192u;
 const uint SHARE_BYTES = 32u;
 
 // Where in the image the part is seen; every invocation of a subgroup may ask for another one.
-ViewPart seen_by_one(uint part) {
-  ViewPart view;
-  view.box = view_words[part * VIEW_WORDS];
-  view.lines_x = view_words[part * VIEW_WORDS + 1u];
-  view.lines_y = view_words[part * VIEW_WORDS + 2u];
-  view.lines_at = view_words[part * VIEW_WORDS + 3u];
+ProjectedSubpatch seen_by_one(uint subpatch) {
+  ProjectedSubpatch view;
+  view.box = projected_words[subpatch * VIEW_WORDS];
+  view.lines_x = projected_words[subpatch * VIEW_WORDS + 1u];
+  view.lines_y = projected_words[subpatch * VIEW_WORDS + 2u];
+  view.lines_at = projected_words[subpatch * VIEW_WORDS + 3u];
   return view;
 }
 
 // The part for which all invocations of a subgroup ask. Each loads a word, which the others get from it: llvmpipe makes
 // a loop over the invocations of every load, so that one load of eight words costs no more than one of the same word.
-ViewPart view_by_all(uint part) {
+ProjectedSubpatch view_by_all(uint subpatch) {
   uint lane = gl_SubgroupInvocationID;
-  uint base = part * VIEW_WORDS;
-  ViewPart view;
+  uint base = subpatch * VIEW_WORDS;
+  ProjectedSubpatch view;
   if (gl_SubgroupSize < 8u) {
-    view = seen_by_one(part);
-    view.P0 = view_words[base + PATCH_WORD];
-    view.P1 = view_words[base + PATCH_WORD + 1u];
-    view.P2 = view_words[base + PATCH_WORD + 2u];
-    view.D0 = view_words[base + PATCH_WORD + 3u];
-    view.D1 = view_words[base + PATCH_WORD + 4u];
-    view.D2 = view_words[base + PATCH_WORD + 5u];
-    view.cone = view_words[base + PATCH_WORD + 6u];
-    view.sizes = view_words[base + PATCH_WORD + 7u];
+    view = seen_by_one(subpatch);
+    view.P0 = projected_words[base + PATCH_WORD];
+    view.P1 = projected_words[base + PATCH_WORD + 1u];
+    view.P2 = projected_words[base + PATCH_WORD + 2u];
+    view.D0 = projected_words[base + PATCH_WORD + 3u];
+    view.D1 = projected_words[base + PATCH_WORD + 4u];
+    view.D2 = projected_words[base + PATCH_WORD + 5u];
+    view.cone = projected_words[base + PATCH_WORD + 6u];
+    view.sizes = projected_words[base + PATCH_WORD + 7u];
     return view;
   }
-  vec4 word = view_words[base + (lane & 3u)];
+  vec4 word = projected_words[base + (lane & 3u)];
   view.box = subgroupBroadcast(word, 0);
   view.lines_x = subgroupBroadcast(word, 1);
   view.lines_y = subgroupBroadcast(word, 2);
   view.lines_at = subgroupBroadcast(word, 3);
-  word = view_words[base + PATCH_WORD + (lane & 7u)];
+  word = projected_words[base + PATCH_WORD + (lane & 7u)];
   view.P0 = subgroupBroadcast(word, 0);
   view.P1 = subgroupBroadcast(word, 1);
   view.P2 = subgroupBroadcast(word, 2);
@@ -79,11 +79,11 @@ ViewPart view_by_all(uint part) {
 }
 
 // One part, all rays of the subgroup.
-void meet(uint part, PixelRay ray, vec2 position, INOUT(Walk) walk, INOUT(bool) undecided) {
-  ViewPart view = view_by_all(part);
-  if (COUNTS) walk.counts.bytes += gl_SubgroupSize < 8u ? VIEW_BYTES : SHARE_BYTES;
+void meet(uint subpatch, PixelRay ray, vec2 position, INOUT(Traversal) traversal, INOUT(bool) undecided) {
+  ProjectedSubpatch view = view_by_all(subpatch);
+  if (COUNTS) traversal.counts.bytes += gl_SubgroupSize < 8u ? VIEW_BYTES : SHARE_BYTES;
   // Newton's method needs nothing else of the triangle, but for blended spheres.
-  if (COUNTS && SURFACE == SURFACE_SPHERE) walk.counts.bytes += TRIANGLE_BYTES;
+  if (COUNTS && SURFACE == SURFACE_SPHERE) traversal.counts.bytes += TRIANGLE_BYTES;
   FramedPatch at;
   at.P0 = view.P0.xyz;
   at.P1 = view.P1.xyz;
@@ -91,14 +91,14 @@ void meet(uint part, PixelRay ray, vec2 position, INOUT(Walk) walk, INOUT(bool) 
   at.D0 = view.D0.xyz;
   at.D1 = view.D1.xyz;
   at.D2 = view.D2.xyz;
-  bool here = may_see(view, position, vec2(PIXEL_SLACK));
-  Cage cage;
-  cage.edge = vec4(view.P0.w, view.P1.w, view.P2.w, 0.0);
-  cage.node = vec4(view.D0.w, view.D1.w, view.D2.w, view.sizes.x);
-  cage.cone = view.cone;
+  bool here = overlaps_rect(view, position, vec2(PIXEL_SLACK));
+  SubpatchBounds bounds;
+  bounds.edge = vec4(view.P0.w, view.P1.w, view.P2.w, 0.0);
+  bounds.sub_triangle = vec4(view.D0.w, view.D1.w, view.D2.w, view.sizes.x);
+  bounds.cone = view.cone;
   uint triangle = uint(view.lines_y.w);
-  meet_quickly(triangles[triangle], triangle, cage, sheared_patch(ray.frame, at), part, ray,
-               ray.frame.stretch * view.sizes.y, here, walk, undecided);
+  intersect_quickly(triangles[triangle], triangle, bounds, sheared_patch(ray.frame, at), subpatch, ray,
+               ray.frame.stretch * view.sizes.y, here, traversal, undecided);
 }
 
 void main() {
@@ -110,35 +110,35 @@ void main() {
   vec2 largest = vec2(subgroupMax(position.x), subgroupMax(position.y));
   precise PixelRay ray = pixel_ray(pixel);
   ray.tile = tile;
-  precise Walk walk = walk_begun(0);
+  precise Traversal traversal = begin_traversal(0);
   bool undecided = is_full(tile);
   uint count = undecided ? 1u : tile_counts[tile];
   // As many parts at a time as there are invocations, each of which looks whether the subgroup sees its own.
   uint first = 0u;
   do {
     uint item = first + gl_SubgroupInvocationID;
-    uint mine = tile_parts[tile * TILE_PARTS + min(item, count - 1u)];
-    ViewPart view = seen_by_one(mine);
-    if (COUNTS) walk.counts.bytes += 4u + SEEN_BYTES;
-    bool seen = item < count && may_see(view, 0.5 * (least + largest), 0.5 * (largest - least) + vec2(PIXEL_SLACK));
+    uint mine = tile_subpatches[tile * TILE_CAPACITY + min(item, count - 1u)];
+    ProjectedSubpatch view = seen_by_one(mine);
+    if (COUNTS) traversal.counts.bytes += 4u + SEEN_BYTES;
+    bool seen = item < count && overlaps_rect(view, 0.5 * (least + largest), 0.5 * (largest - least) + vec2(PIXEL_SLACK));
     float begins = seen ? view.lines_x.w : 1e30;
     // Front to back, as long as a part begins before what the rays have met. Of a subgroup that sees none one part is
     // tried in vain: with the condition at the loop's head llvmpipe would always try one more.
     float next = subgroupMin(begins);
     do {
-      uint part = subgroupMin(begins == next ? mine : NO_TRIANGLE);
-      meet(part, ray, position, walk, undecided);
-      if (mine == part) begins = 1e30;
+      uint subpatch = subgroupMin(begins == next ? mine : NO_TRIANGLE);
+      meet(subpatch, ray, position, traversal, undecided);
+      if (mine == subpatch) begins = 1e30;
       next = subgroupMin(begins);
-    } while (next < subgroupMax(walk.hit.z));
+    } while (next < subgroupMax(traversal.hit.z));
     first += gl_SubgroupSize;
   } while (first < count);
   if (pixel.x >= params.width || pixel.y >= params.height) return;
-  count_bytes(walk);
+  count_bytes(traversal);
   if (undecided) {
     // From the first part of the list on.
-    enqueue(pixel.y * params.width + pixel.x, walk);
+    enqueue(pixel.y * params.width + pixel.x, traversal);
     return;
   }
-  write_pixel(pixel, ray, walk);
+  write_pixel(pixel, ray, traversal);
 }

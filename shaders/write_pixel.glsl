@@ -16,25 +16,25 @@ PixelRay ray_of(uvec2 pixel) {
   return shadow_ray(pixels[output_index(pixel)], ray.view);
 }
 
-Walk walk_of(uvec2 pixel, int steps) {
-  if (!SHADOWS) return walk_begun(steps);
-  return shadow_walk_begun(pixels[output_index(pixel)], pixel_ray(pixel).view, steps);
+Traversal begin_pixel_traversal(uvec2 pixel, int steps) {
+  if (!SHADOWS) return begin_traversal(steps);
+  return begin_shadow_traversal(pixels[output_index(pixel)], pixel_ray(pixel).view, steps);
 }
 
 // The outputs of a pixel whose walk is through.
-void write_pixel(uvec2 pixel, PixelRay ray, Walk walk) {
+void write_pixel(uvec2 pixel, PixelRay ray, Traversal traversal) {
   uint index = output_index(pixel);
   if (SHADOWS) {
-    if (walk.hit.triangle != NO_TRIANGLE) colors[index] = shadow_color();
+    if (traversal.hit.triangle != NO_TRIANGLE) colors[index] = shadow_color();
     if (COUNTS) {
-      pixels[index].evaluations += walk.counts.evaluations;
-      pixels[index].candidates += walk.counts.candidates;
+      pixels[index].evaluations += traversal.counts.evaluations;
+      pixels[index].candidates += traversal.counts.candidates;
     }
     return;
   }
   precise vec4 color;
   precise PixelAovs aovs;
-  finish_pixel(ray, walk, color, aovs);
+  finish_pixel(ray, traversal, color, aovs);
   colors[index] = color;
   if (AOVS) pixels[index] = aovs;
 }

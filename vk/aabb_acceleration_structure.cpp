@@ -77,8 +77,9 @@ void run(const Device& device, Commands& commands, Build& build,
 
 }  // namespace
 
-BoxStructure::Level::Level(const Device& its_device, VkAccelerationStructureTypeKHR type,
-                           std::size_t size, const char* name)
+AabbAccelerationStructure::Level::Level(const Device& its_device,
+                                        VkAccelerationStructureTypeKHR type, std::size_t size,
+                                        const char* name)
     : device(its_device), buffer(its_device, size, Memory::addressed, name) {
   VkAccelerationStructureCreateInfoKHR info{
       VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_CREATE_INFO_KHR};
@@ -93,12 +94,13 @@ BoxStructure::Level::Level(const Device& its_device, VkAccelerationStructureType
   address = device.structures().get_address(device.get(), &of);
 }
 
-BoxStructure::Level::~Level() {
+AabbAccelerationStructure::Level::~Level() {
   device.structures().destroy(device.get(), structure, nullptr);
 }
 
-BoxStructure::BoxStructure(const Device& device, Staging& staging, Commands& commands,
-                           std::span<const VkAabbPositionsKHR> boxes)
+AabbAccelerationStructure::AabbAccelerationStructure(const Device& device, Staging& staging,
+                                                     Commands& commands,
+                                                     std::span<const VkAabbPositionsKHR> boxes)
     : bottom_(device, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR,
               result_size(device, build_of_boxes(0, boxes.size())), "boxes"),
       top_(device, VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR,

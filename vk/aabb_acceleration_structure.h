@@ -10,12 +10,12 @@
 
 namespace trisect::gpu {
 
-class BoxStructure {
+class AabbAccelerationStructure {
  public:
   // Of at least one box. A ray meets box i as primitive i of geometry 0. The device must
   // have_ray_query(). Throws Error if there is no memory.
-  BoxStructure(const Device& device, Staging& staging, Commands& commands,
-               std::span<const VkAabbPositionsKHR> boxes);
+  AabbAccelerationStructure(const Device& device, Staging& staging, Commands& commands,
+                            std::span<const VkAabbPositionsKHR> boxes);
 
   // That a kernel makes an accelerationStructureEXT of.
   [[nodiscard]] VkDeviceAddress address() const { return top_.address; }

@@ -31,7 +31,7 @@ void Commands::begin() {
   }
 }
 
-void Commands::dispatch(const Kernel& kernel, const BoundBuffers& buffers,
+void Commands::dispatch(const Kernel& kernel, const DescriptorSet& buffers,
                         std::span<const std::byte> push, uint32_t groups_x, uint32_t groups_y) {
   if (push.size() != kernel.interface().push_size) {
     throw std::logic_error("a kernel with " + std::to_string(kernel.interface().push_size) +

@@ -19,7 +19,7 @@ class Commands {
 
   // Runs groups_x times groups_y workgroups of the kernel. push: exactly as many bytes as its
   // interface says.
-  void dispatch(const Kernel& kernel, const BoundBuffers& buffers, std::span<const std::byte> push,
+  void dispatch(const Kernel& kernel, const DescriptorSet& buffers, std::span<const std::byte> push,
                 uint32_t groups_x, uint32_t groups_y = 1);
 
   // Builds an acceleration structure of one geometry.

@@ -25,9 +25,10 @@ KernelInterface with_texture(KernelInterface interface, uint32_t binding) {
 
 }  // namespace
 
-ScreenPass::ScreenPass(const Device& device, VkRenderPass render_pass,
-                       std::span<const uint32_t> vertex, std::span<const uint32_t> fragment,
-                       KernelInterface interface, uint32_t texture_binding, const std::string& name)
+FullscreenPass::FullscreenPass(const Device& device, VkRenderPass render_pass,
+                               std::span<const uint32_t> vertex, std::span<const uint32_t> fragment,
+                               KernelInterface interface, uint32_t texture_binding,
+                               const std::string& name)
     : device_(&device),
       interface_(std::move(interface)),
       texture_binding_(texture_binding),
@@ -85,7 +86,7 @@ ScreenPass::ScreenPass(const Device& device, VkRenderPass render_pass,
   device.name(VK_OBJECT_TYPE_PIPELINE, pipeline_.get(), name);
 }
 
-void ScreenPass::bind(const std::vector<const Buffer*>& buffers, const Texture& texture) {
+void FullscreenPass::bind(const std::vector<const Buffer*>& buffers, const Texture& texture) {
   write_set(*device_, set_, interface_, buffers);
   const VkDescriptorImageInfo image{texture.sampler(), texture.view(),
                                     VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
@@ -98,7 +99,7 @@ void ScreenPass::bind(const std::vector<const Buffer*>& buffers, const Texture& 
   vkUpdateDescriptorSets(device_->get(), 1, &write, 0, nullptr);
 }
 
-void ScreenPass::draw(VkCommandBuffer commands, std::span<const std::byte> push) const {
+void FullscreenPass::draw(VkCommandBuffer commands, std::span<const std::byte> push) const {
   if (push.size() != interface_.push_size) {
     throw std::logic_error("a screen pass with " + std::to_string(interface_.push_size) +
                            " bytes of push constants got " + std::to_string(push.size()));

@@ -14,13 +14,13 @@
 
 namespace trisect::gpu {
 
-class ScreenPass {
+class FullscreenPass {
  public:
   // The vertex shader draws three vertices without input; interface: of the fragment shader, which
   // has a texture at another binding.
-  ScreenPass(const Device& device, VkRenderPass render_pass, std::span<const uint32_t> vertex,
-             std::span<const uint32_t> fragment, KernelInterface interface,
-             uint32_t texture_binding, const std::string& name);
+  FullscreenPass(const Device& device, VkRenderPass render_pass, std::span<const uint32_t> vertex,
+                 std::span<const uint32_t> fragment, KernelInterface interface,
+                 uint32_t texture_binding, const std::string& name);
 
   // What the next draws read: a buffer for each binding of the interface, in its order, and the
   // texture. No frame that reads others may be in flight; they must live until the next call.

@@ -42,8 +42,8 @@ Kernel::Kernel(const Device& device, std::span<const uint32_t> spirv, KernelInte
   device.name(VK_OBJECT_TYPE_PIPELINE, pipeline_.get(), name);
 }
 
-BoundBuffers::BoundBuffers(const Device& device, const Kernel& kernel,
-                           const std::vector<const Buffer*>& buffers)
+DescriptorSet::DescriptorSet(const Device& device, const Kernel& kernel,
+                             const std::vector<const Buffer*>& buffers)
     : pool_(make_pool(device, kernel.interface())),
       set_(allocate_set(device, pool_.get(), kernel.set_layout())) {
   write_set(device, set_, kernel.interface(), buffers);

@@ -37,11 +37,11 @@ class Kernel {
 
 // A descriptor set for a kernel. Every binding of the kernel's interface gets its buffer here,
 // once.
-class BoundBuffers {
+class DescriptorSet {
  public:
   // buffers: one for each binding of the interface, in its order; they must outlive this object.
-  BoundBuffers(const Device& device, const Kernel& kernel,
-               const std::vector<const Buffer*>& buffers);
+  DescriptorSet(const Device& device, const Kernel& kernel,
+                const std::vector<const Buffer*>& buffers);
 
   [[nodiscard]] VkDescriptorSet get() const { return set_; }
 

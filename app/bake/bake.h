@@ -16,10 +16,10 @@ namespace trisect {
 struct BakedScene {
   SurfaceChoice choice;
   glm::dvec3 origin{0.0};
-  std::vector<Triangle> triangles;  // in the order of the mesh
-  std::vector<Cage> cages;          // of the robust solver; empty if it is not used
-  std::vector<BvhEntry> bvh;        // over the cages; empty if no ray goes by it
-  double extent = 0.0;              // half the diagonal of that box
+  std::vector<Triangle> triangles;         // in the order of the mesh
+  std::vector<SubpatchBounds> subpatches;  // of the robust solver; empty if it is not used
+  std::vector<BvhEntry> bvh;               // over the cages; empty if no ray goes by it
+  double extent = 0.0;                     // half the diagonal of that box
   double radius = 0.0;  // of the ball about `origin` that contains every triangle's Domain
 };
 

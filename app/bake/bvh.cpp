@@ -23,11 +23,11 @@ constexpr uint32_t kChildren = 8;
 // What Embree's builder makes: a tree of branches whose leaves are nothing but nodes, in its own
 // memory.
 struct Node {
-  uint32_t part = NO_TRIANGLE;  // of a leaf
+  uint32_t subpatch = NO_TRIANGLE;  // of a leaf
 };
 struct Branch : Node {
   std::array<Node*, kChildren> children{};
-  std::array<PartBox, kChildren> boxes{};
+  std::array<SubpatchBox, kChildren> boxes{};
 };
 
 template <typename T>
@@ -61,7 +61,7 @@ void set_bounds(void* node, const RTCBounds** bounds, unsigned int count, void*)
 void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives,
                   std::size_t, void*) {
   Node* leaf = make<Node>(allocator);
-  leaf->part = primitives->primID;
+  leaf->subpatch = primitives->primID;
   return leaf;
 }
 
@@ -72,7 +72,7 @@ struct ReleaseBvh {
   void operator()(RTCBVH bvh) const { rtcReleaseBVH(bvh); }
 };
 
-void set_box(BvhEntry& entry, const PartBox& box) {
+void set_box(BvhEntry& entry, const SubpatchBox& box) {
   entry.lo_x = box.lo.x;
   entry.lo_y = box.lo.y;
   entry.lo_z = box.lo.z;
@@ -81,12 +81,12 @@ void set_box(BvhEntry& entry, const PartBox& box) {
   entry.hi_z = box.hi.z;
 }
 
-PartBox around(const PartBox& a, const PartBox& b) {
+SubpatchBox around(const SubpatchBox& a, const SubpatchBox& b) {
   return {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)};
 }
 
 // Around nothing.
-PartBox no_box() {
+SubpatchBox no_box() {
   const glm::vec3 most(std::numeric_limits<float>::max());
   return {most, -most};
 }
@@ -94,7 +94,7 @@ PartBox no_box() {
 // Which child stands at which of the eight octants: the best pair of a child and an octant that is
 // left is matched first, the better the farther the child is on the octant's side.
 std::array<uint32_t, kChildren> octants_of(const Branch& branch) {
-  PartBox all = no_box();
+  SubpatchBox all = no_box();
   for (uint32_t k = 0; k < kChildren; ++k) {
     if (branch.children[k] != nullptr) all = around(all, branch.boxes[k]);
   }
@@ -138,13 +138,13 @@ void flatten(const Branch& branch, int level, uint32_t next, std::vector<BvhEntr
     const uint32_t follows = k + 1 < kChildren ? first + k + 1 : next;
     BvhEntry entry{};
     entry.next = follows;
-    entry.link = BVH_NOTHING;
+    entry.link = BVH_EMPTY;
     set_box(entry, no_box());
     if (children[k] != NO_TRIANGLE) {
       const Node& child = *branch.children[children[k]];
       set_box(entry, branch.boxes[children[k]]);
-      if (child.part != NO_TRIANGLE) {
-        entry.link = BVH_PART + child.part;
+      if (child.subpatch != NO_TRIANGLE) {
+        entry.link = BVH_LEAF + child.subpatch;
       } else {
         entry.link = static_cast<uint32_t>(bvh.size());
         flatten(static_cast<const Branch&>(child), level + 1, follows, bvh);
@@ -157,12 +157,12 @@ void flatten(const Branch& branch, int level, uint32_t next, std::vector<BvhEntr
 }  // namespace
 
 std::vector<BvhEntry> build_bvh(const BakedScene& scene) {
-  const std::vector<PartBox> boxes = part_boxes(scene);
+  const std::vector<SubpatchBox> boxes = subpatch_boxes(scene);
   std::vector<RTCBuildPrimitive> primitives;
   primitives.reserve(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    if (scene.cages[i].skip > 0) continue;
-    const PartBox& b = boxes[i];
+    if (scene.subpatches[i].skip > 0) continue;
+    const SubpatchBox& b = boxes[i];
     primitives.push_back(
         {b.lo.x, b.lo.y, b.lo.z, 0, b.hi.x, b.hi.y, b.hi.z, static_cast<uint32_t>(i)});
   }
@@ -190,10 +190,10 @@ std::vector<BvhEntry> build_bvh(const BakedScene& scene) {
 
   std::vector<BvhEntry> bvh;
   bvh.reserve(primitives.size() * 3 / 2 + kChildren);
-  if (root->part != NO_TRIANGLE) {
+  if (root->subpatch != NO_TRIANGLE) {
     Branch only;
     only.children[0] = root;
-    only.boxes[0] = boxes[root->part];
+    only.boxes[0] = boxes[root->subpatch];
     flatten(only, 0, BVH_END, bvh);
   } else {
     flatten(static_cast<const Branch&>(*root), 0, BVH_END, bvh);
@@ -204,20 +204,21 @@ std::vector<BvhEntry> build_bvh(const BakedScene& scene) {
 std::optional<std::vector<BvhEntry>> refitted_bvh(const BakedScene& scene,
                                                   const BakedScene& other) {
   const bool same_parts =
-      std::equal(scene.cages.begin(), scene.cages.end(), other.cages.begin(), other.cages.end(),
-                 [](const Cage& a, const Cage& b) { return a.skip == b.skip; });
+      std::equal(scene.subpatches.begin(), scene.subpatches.end(), other.subpatches.begin(),
+                 other.subpatches.end(),
+                 [](const SubpatchBounds& a, const SubpatchBounds& b) { return a.skip == b.skip; });
   if (other.bvh.empty() || !same_parts) return std::nullopt;
-  const std::vector<PartBox> boxes = part_boxes(scene);
+  const std::vector<SubpatchBox> boxes = subpatch_boxes(scene);
   std::vector<BvhEntry> bvh = other.bvh;
   // What lies below an entry comes after it.
   for (std::size_t i = bvh.size(); i-- > 0;) {
     BvhEntry& entry = bvh[i];
-    if (entry.link == BVH_NOTHING) continue;
-    if (entry.link >= BVH_PART) {
-      set_box(entry, boxes[entry.link - BVH_PART]);
+    if (entry.link == BVH_EMPTY) continue;
+    if (entry.link >= BVH_LEAF) {
+      set_box(entry, boxes[entry.link - BVH_LEAF]);
       continue;
     }
-    PartBox all = no_box();
+    SubpatchBox all = no_box();
     for (const BvhEntry& child : std::span(bvh).subspan(entry.link, kChildren)) {
       all =
           around(all, {{child.lo_x, child.lo_y, child.lo_z}, {child.hi_x, child.hi_y, child.hi_z}});

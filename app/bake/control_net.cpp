@@ -29,7 +29,7 @@ dvec3 corner_weights(int k) {
   return e;
 }
 
-ControlNet net_of(const Corners& corners, const SubTriangle& part, const CageQuadratic& q) {
+ControlNet net_of(const Corners& corners, const SubTriangle& part, const DisplacementQuadratic& q) {
   const std::array<dvec3, 3> w = corners_of(part);
   std::array<dvec3, 3> T{};
   std::array<dvec3, 3> D{};

@@ -22,7 +22,7 @@ SubTriangle enlarged(const SubTriangle& part, double margin);
 std::array<glm::dvec3, 3> corners_of(const SubTriangle& part);
 
 // Bernstein coefficients of a quadratic in the weights of the whole triangle.
-struct CageQuadratic {
+struct DisplacementQuadratic {
   glm::dvec3 corner{0.0};
   glm::dvec3 edge{0.0};  // 01, 12, 02
 
@@ -48,6 +48,6 @@ glm::dvec3 corner_weights(int k);
 using ControlNet = std::array<glm::dvec3, 10>;
 
 // The cubic Bezier triangle T + q D over a part.
-ControlNet net_of(const Corners& corners, const SubTriangle& part, const CageQuadratic& q);
+ControlNet net_of(const Corners& corners, const SubTriangle& part, const DisplacementQuadratic& q);
 
 }  // namespace trisect

@@ -7,14 +7,14 @@
 namespace trisect {
 namespace {
 
-double reach(const glm::dvec3& center, const Ball& ball) {
+double farthest_distance(const glm::dvec3& center, const Ball& ball) {
   return glm::distance(center, ball.center) + ball.radius;
 }
 
 // The first of the balls that reach farthest from the centre, and how far.
 struct Farthest {
   const Ball* ball;
-  double reach;
+  double farthest_distance;
 };
 
 Farthest farthest(const glm::dvec3& center, std::span<const Ball> balls, bool are_points) {
@@ -24,14 +24,14 @@ Farthest farthest(const glm::dvec3& center, std::span<const Ball> balls, bool ar
     for (const Ball& ball : balls) {
       const glm::dvec3 away = center - ball.center;
       const double square = glm::dot(away, away);
-      if (square > far.reach) far = {&ball, square};
+      if (square > far.farthest_distance) far = {&ball, square};
     }
-    return {far.ball, std::sqrt(far.reach)};
+    return {far.ball, std::sqrt(far.farthest_distance)};
   }
-  Farthest far{balls.data(), reach(center, balls[0])};
+  Farthest far{balls.data(), farthest_distance(center, balls[0])};
   for (const Ball& ball : balls.subspan(1)) {
-    const double distance = reach(center, ball);
-    if (distance > far.reach) far = {&ball, distance};
+    const double distance = farthest_distance(center, ball);
+    if (distance > far.farthest_distance) far = {&ball, distance};
   }
   return far;
 }

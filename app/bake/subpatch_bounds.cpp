@@ -33,8 +33,8 @@ constexpr int kMostLevels = 6;
 // Interval arithmetic is tighter over pieces of a part: 4^2 of them.
 constexpr int kProofDivisions = 2;
 
-// Rays are quick along the directions of a part's cone (Cage::cone), whose w should be at most so
-// large; else the part is divided, for this reason no further than to 4^2 parts of a patch.
+// Rays are quick along the directions of a part's cone (SubpatchBounds::cone), whose w should be at
+// most so large; else the part is divided, for this reason no further than to 4^2 parts of a patch.
 constexpr float kWide = 0.3F;
 constexpr int kLevelsForCones = 2;
 const vec4 kNoCone(0.0F, 0.0F, 0.0F, NO_CONE);
@@ -44,7 +44,7 @@ const vec4 kNoCone(0.0F, 0.0F, 0.0F, NO_CONE);
 constexpr int kSamples = 12;
 constexpr double kBetweenSamples = 1.5;
 
-struct CagedPatch {
+struct PatchData {
   in_double::Shape shape;
   in_double::Triangle tri;
   Corners corners;
@@ -60,24 +60,24 @@ struct RangedPiece {
 };
 
 struct Fit {
-  CageQuadratic q;
-  double stray = 0.0;               // of S, a length
-  double tangent_stray = 0.0;       // of S_u and S_v
-  double bend = 0.0;                // Cage::bend
+  DisplacementQuadratic q;
+  double position_error = 0.0;      // of S, a length
+  double tangent_error = 0.0;       // of S_u and S_v
+  double gradient_lipschitz = 0.0;  // SubpatchBounds::bend
   std::vector<RangedPiece> pieces;  // of a part that may have a kink, its overlap included
 };
 
-CagedPatch patch_of(const SurfaceChoice& choice, const Triangle& single) {
-  const in_double::Triangle tri = widen(single);
+PatchData patch_of(const SurfaceChoice& choice, const Triangle& single) {
+  const in_double::Triangle tri = to_double(single);
   return {shape_of(choice), tri, corners_of(tri, choice.shell), patch_of(choice.shell, single),
           in_float::edge_bulges(single, static_cast<float>(choice.alpha))};
 }
 
 // The quadratic with these values at the part's corners and at the middles of its edges.
 template <typename Value>
-CageQuadratic through(const SubTriangle& part, Value&& value) {
+DisplacementQuadratic through(const SubTriangle& part, Value&& value) {
   const auto at = [&](const dvec3& l) { return value(part.origin + l * part.size); };
-  CageQuadratic local;
+  DisplacementQuadratic local;
   for (int k = 0; k < 3; ++k) local.corner[k] = at(corner_weights(k));
   for (int k = 0; k < 3; ++k) {
     const int i = k == 2 ? 0 : k;
@@ -87,7 +87,7 @@ CageQuadratic through(const SubTriangle& part, Value&& value) {
   }
   // In the weights of the whole: the blossom does not mind that the corners lie outside the part.
   const auto inside = [&](int k) { return (corner_weights(k) - part.origin) / part.size; };
-  CageQuadratic whole;
+  DisplacementQuadratic whole;
   for (int k = 0; k < 3; ++k) whole.corner[k] = local.blossom(inside(k), inside(k));
   whole.edge = {local.blossom(inside(0), inside(1)), local.blossom(inside(1), inside(2)),
                 local.blossom(inside(0), inside(2))};
@@ -101,7 +101,7 @@ struct Sample {
   glm::dvec2 gradient;
 };
 
-Sample sample(const CagedPatch& patch, const CageQuadratic& q, const dvec3& w) {
+Sample sample(const PatchData& patch, const DisplacementQuadratic& q, const dvec3& w) {
   const in_double::Displacement sigma =
       in_double::displacement_and_derivatives(patch.shape, patch.tri, w);
   return {w,
@@ -110,8 +110,8 @@ Sample sample(const CagedPatch& patch, const CageQuadratic& q, const dvec3& w) {
            sigma.v - 2.0 * q.blossom(w, {-1.0, 0.0, 1.0})}};
 }
 
-std::vector<Sample> samples_of(const CagedPatch& patch, const SubTriangle& part,
-                               const CageQuadratic& q) {
+std::vector<Sample> samples_of(const PatchData& patch, const SubTriangle& part,
+                               const DisplacementQuadratic& q) {
   std::vector<Sample> samples;
   for (int i = 0; i <= kSamples; ++i) {
     for (int j = 0; i + j <= kSamples; ++j) {
@@ -138,8 +138,8 @@ double steepest_change(const std::vector<Sample>& samples) {
         const int k = i + step.x;
         const int l = j + step.y;
         if (l < 0 || k + l > kSamples) continue;
-        raise(steepest, glm::distance(at(i, j).gradient, at(k, l).gradient) * kSamples /
-                            glm::length(glm::dvec2(step)));
+        max_propagating_nan(steepest, glm::distance(at(i, j).gradient, at(k, l).gradient) *
+                                          kSamples / glm::length(glm::dvec2(step)));
       }
     }
   }
@@ -147,22 +147,25 @@ double steepest_change(const std::vector<Sample>& samples) {
 }
 
 // Raises `stray` to how far S_u and S_v are from the cage's at the sample.
-void raise_tangent_stray(const CagedPatch& patch, const Sample& a, double& stray) {
+void raise_tangent_error(const PatchData& patch, const Sample& a, double& position_error) {
   const dvec3 D = in_double::weigh(a.w, patch.corners.D[0], patch.corners.D[1], patch.corners.D[2]);
-  raise(stray, glm::length(D * a.gradient.x + (patch.corners.D[1] - patch.corners.D[0]) * a.e));
-  raise(stray, glm::length(D * a.gradient.y + (patch.corners.D[2] - patch.corners.D[0]) * a.e));
+  max_propagating_nan(position_error, glm::length(D * a.gradient.x +
+                                                  (patch.corners.D[1] - patch.corners.D[0]) * a.e));
+  max_propagating_nan(position_error, glm::length(D * a.gradient.y +
+                                                  (patch.corners.D[2] - patch.corners.D[0]) * a.e));
 }
 
 // Whether sigma may have a kink over a part, as far as so many divisions tell.
-bool may_be_kinked(const CagedPatch& patch, const Part& part, int divisions) {
+bool may_be_nonsmooth(const PatchData& patch, const Part& part, int divisions) {
   if (sphere_is_smooth(patch.ranges, part)) return false;
   if (divisions == 0) return true;
   const auto quarters = quarter(part);
-  return std::any_of(quarters.begin(), quarters.end(),
-                     [&](const Part& piece) { return may_be_kinked(patch, piece, divisions - 1); });
+  return std::any_of(quarters.begin(), quarters.end(), [&](const Part& piece) {
+    return may_be_nonsmooth(patch, piece, divisions - 1);
+  });
 }
 
-void add_pieces(const CagedPatch& patch, const Part& part, int divisions,
+void add_pieces(const PatchData& patch, const Part& part, int divisions,
                 std::vector<RangedPiece>& pieces) {
   if (divisions > 0) {
     for (const Part& piece : quarter(part)) add_pieces(patch, piece, divisions - 1, pieces);
@@ -173,7 +176,7 @@ void add_pieces(const CagedPatch& patch, const Part& part, int divisions,
 }
 
 // The most by which S strays from T + q D over a piece, proven.
-double proven_stray(const CageQuadratic& q, const RangedPiece& piece) {
+double proven_position_error(const DisplacementQuadratic& q, const RangedPiece& piece) {
   if (!piece.sigma) return kInfinity;
   Interval quadratic = q.blossom(piece.part[0], piece.part[0]);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -185,22 +188,23 @@ double proven_stray(const CageQuadratic& q, const RangedPiece& piece) {
 }
 
 // The quadratic of a part of the sphere surface that may have a kink.
-Fit kinked_fit(const CagedPatch& patch, const SubTriangle& part, Fit fit, double rounded) {
+Fit nonsmooth_fit(const PatchData& patch, const SubTriangle& part, Fit fit, double rounded) {
   constexpr double most = std::numeric_limits<float>::max();
   add_pieces(patch, corners_of(enlarged(part, OVERLAP)), kProofDivisions, fit.pieces);
-  double stray = 0.0;
-  for (const RangedPiece& piece : fit.pieces) raise(stray, proven_stray(fit.q, piece));
-  fit.stray = std::isfinite(stray) ? stray + rounded : most;
-  fit.tangent_stray = most;
-  fit.bend = KINKED;
+  double position_error = 0.0;
+  for (const RangedPiece& piece : fit.pieces)
+    max_propagating_nan(position_error, proven_position_error(fit.q, piece));
+  fit.position_error = std::isfinite(position_error) ? position_error + rounded : most;
+  fit.tangent_error = most;
+  fit.gradient_lipschitz = NONSMOOTH;
   return fit;
 }
 
-Fit fit(const CagedPatch& patch, const SubTriangle& part) {
+Fit fit(const PatchData& patch, const SubTriangle& part) {
   const bool cubic = in_double::is_cubic(patch.shape);
   Fit fit;
   // Of a cubic patch as the kernels have it from the triangle, to the bit.
-  fit.q = cubic ? CageQuadratic{dvec3(0.0), dvec3(patch.bulges) * 0.5}
+  fit.q = cubic ? DisplacementQuadratic{dvec3(0.0), dvec3(patch.bulges) * 0.5}
                 : through(part, [&](const dvec3& w) {
                     return in_double::displacement(patch.shape, patch.tri, w);
                   });
@@ -210,35 +214,36 @@ Fit fit(const CagedPatch& patch, const SubTriangle& part) {
   const dvec3 size = glm::max(glm::abs(fit.q.corner), glm::abs(fit.q.edge));
   const double rounded = rounding * std::max({size.x, size.y, size.z}) * longest_D;
   if (cubic) {
-    fit.stray = rounded;
-    fit.tangent_stray = rounded;
+    fit.position_error = rounded;
+    fit.tangent_error = rounded;
     return fit;
   }
   if (patch.shape.surface == SURFACE_SPHERE &&
-      may_be_kinked(patch, corners_of(enlarged(part, CONE_MARGIN)), kProofDivisions)) {
-    return kinked_fit(patch, part, fit, rounded);
+      may_be_nonsmooth(patch, corners_of(enlarged(part, CONE_MARGIN)), kProofDivisions)) {
+    return nonsmooth_fit(patch, part, fit, rounded);
   }
   const SubTriangle large = enlarged(part, OVERLAP);
   const std::vector<Sample> samples = samples_of(patch, large, fit.q);
   for (const Sample& a : samples) {
     const dvec3 D =
         in_double::weigh(a.w, patch.corners.D[0], patch.corners.D[1], patch.corners.D[2]);
-    raise(fit.stray, glm::length(D) * std::abs(a.e));
-    raise_tangent_stray(patch, a, fit.tangent_stray);
+    max_propagating_nan(fit.position_error, glm::length(D) * std::abs(a.e));
+    raise_tangent_error(patch, a, fit.tangent_error);
   }
-  raise(fit.bend, steepest_change(samples) / std::abs(large.size) * longest_D);
-  const auto widened = [&](double stray) {
-    return std::isfinite(stray) ? stray * kBetweenSamples + rounded
-                                : static_cast<double>(std::numeric_limits<float>::max());
+  max_propagating_nan(fit.gradient_lipschitz,
+                      steepest_change(samples) / std::abs(large.size) * longest_D);
+  const auto widened = [&](double position_error) {
+    return std::isfinite(position_error) ? position_error * kBetweenSamples + rounded
+                                         : static_cast<double>(std::numeric_limits<float>::max());
   };
-  fit.stray = widened(fit.stray);
-  fit.tangent_stray = widened(fit.tangent_stray);
-  fit.bend = widened(fit.bend);
+  fit.position_error = widened(fit.position_error);
+  fit.tangent_error = widened(fit.tangent_error);
+  fit.gradient_lipschitz = widened(fit.gradient_lipschitz);
   return fit;
 }
 
 // The ball around a part, its overlap with the next ones included.
-Ball part_ball(const CagedPatch& patch, const SubTriangle& part, const Fit& fit) {
+Ball part_ball(const PatchData& patch, const SubTriangle& part, const Fit& fit) {
   std::vector<Ball> points;
   // Around a part with a kink its pieces' corners displaced by the least and the largest sigma:
   // closer than the part's quadratic where directions are long.
@@ -254,7 +259,7 @@ Ball part_ball(const CagedPatch& patch, const SubTriangle& part, const Fit& fit)
   }
   if (fit.pieces.empty()) {
     for (const dvec3& point : net_of(patch.corners, enlarged(part, OVERLAP), fit.q)) {
-      points.push_back({point, fit.stray});
+      points.push_back({point, fit.position_error});
     }
   }
   Ball ball = enclosing_ball(points);
@@ -270,19 +275,19 @@ double norm_of(const glm::dmat2& m) {
 }
 
 // How far S_u and S_v stray over an enlarged part from those of its cage.
-double tangents_stray(const CagedPatch& patch, const SubTriangle& part, const Fit& fit) {
-  if (fit.bend == 0.0) return fit.tangent_stray;
+double tangents_error(const PatchData& patch, const SubTriangle& part, const Fit& fit) {
+  if (fit.gradient_lipschitz == 0.0) return fit.tangent_error;
   double most = 0.0;
-  for (const Sample& a : samples_of(patch, part, fit.q)) raise_tangent_stray(patch, a, most);
-  return std::max(kBetweenSamples * most, fit.tangent_stray);
+  for (const Sample& a : samples_of(patch, part, fit.q)) raise_tangent_error(patch, a, most);
+  return std::max(kBetweenSamples * most, fit.tangent_error);
 }
 
-// Cage::cone. S_u and S_v at a point are the same convex combination of the control vectors u_i and
-// v_i; so is their mean along a line from one point to another, with which S differs between them.
-// Seen along a direction d, on the tangent plane with normal n and mean tangents M0, that mean is
-// M0 (1 + E - t g^T), t the tangent of the angle between d and n, E and g those of (u_i, v_i): it
-// is one to one if |E| + t |g| < 1 for all i.
-vec4 normal_cone(const CagedPatch& patch, const SubTriangle& part, const Fit& fit) {
+// SubpatchBounds::cone. S_u and S_v at a point are the same convex combination of the control
+// vectors u_i and v_i; so is their mean along a line from one point to another, with which S
+// differs between them. Seen along a direction d, on the tangent plane with normal n and mean
+// tangents M0, that mean is M0 (1 + E - t g^T), t the tangent of the angle between d and n, E and g
+// those of (u_i, v_i): it is one to one if |E| + t |g| < 1 for all i.
+vec4 normal_cone(const PatchData& patch, const SubTriangle& part, const Fit& fit) {
   const SubTriangle large = enlarged(part, CONE_MARGIN);
   const ControlNet b = net_of(patch.corners, large, fit.q);
   const std::array<dvec3, 6> u{b[3] - b[0], b[1] - b[4], b[6] - b[7],
@@ -300,19 +305,19 @@ vec4 normal_cone(const CagedPatch& patch, const SubTriangle& part, const Fit& fi
   const dvec3 y = glm::cross(n, x);
   const auto in_plane = [&](const dvec3& a) { return glm::dvec2(glm::dot(a, x), glm::dot(a, y)); };
   const glm::dmat2 inverse = glm::inverse(glm::dmat2(in_plane(mean_u), in_plane(mean_v)));
-  const double stray = tangents_stray(patch, large, fit) * std::abs(large.size) / 3.0 *
-                       std::sqrt(2.0) * norm_of(inverse);
+  const double position_error = tangents_error(patch, large, fit) * std::abs(large.size) / 3.0 *
+                                std::sqrt(2.0) * norm_of(inverse);
   // The largest |g| / (1 - |E|): the cotangent of the smallest angle with n that is too large.
   double flattest = 0.0;
   for (std::size_t i = 0; i < 6; ++i) {
     const glm::dmat2 change =
         glm::dmat2(in_plane(u[i]), in_plane(v[i])) * inverse - glm::dmat2(1.0);
-    const double room = 1.0 - norm_of(change) - stray;
+    const double room = 1.0 - norm_of(change) - position_error;
     // Written so that a NaN has no cone.
     if (!(room > 0.0)) return kNoCone;
-    const double bend =
-        glm::length(glm::dvec2(glm::dot(u[i], n), glm::dot(v[i], n)) * inverse) + stray;
-    raise(flattest, bend / room);
+    const double gradient_lipschitz =
+        glm::length(glm::dvec2(glm::dot(u[i], n), glm::dot(v[i], n)) * inverse) + position_error;
+    max_propagating_nan(flattest, gradient_lipschitz / room);
   }
   constexpr double narrowest = 10.0;
   if (!(flattest < narrowest)) return kNoCone;
@@ -321,87 +326,92 @@ vec4 normal_cone(const CagedPatch& patch, const SubTriangle& part, const Fit& fi
   return {glm::vec3(n), static_cast<float>(flattest / std::hypot(flattest, 1.0) + rounding)};
 }
 
-Cage cage_of(const CagedPatch& patch, const SubTriangle& part, const Fit& fit, uint32_t triangle) {
-  Cage cage{};
+SubpatchBounds bounds_of(const PatchData& patch, const SubTriangle& part, const Fit& fit,
+                         uint32_t triangle) {
+  SubpatchBounds bounds{};
   // That of the whole patch, and of a part whose bounds are none.
-  cage.ball = vec4(patch.tri.Domain);
+  bounds.ball = vec4(patch.tri.Domain);
   if (part.size < 1.0) {
     const Ball ball = part_ball(patch, part, fit);
     if (ball.radius < patch.tri.Domain.w) {
-      cage.ball = vec4(glm::vec3(ball.center), rounded_up(ball.radius));
+      bounds.ball = vec4(glm::vec3(ball.center), rounded_up(ball.radius));
     }
   }
-  cage.node = vec4(glm::vec3(part.origin), static_cast<float>(part.size));
-  cage.corner = vec4(glm::vec3(fit.q.corner), rounded_up(fit.stray));
-  cage.edge = vec4(glm::vec3(fit.q.edge), rounded_up(fit.tangent_stray));
-  cage.cone = kNoCone;
-  cage.triangle = triangle;
-  cage.bend = rounded_up(fit.bend);
+  bounds.sub_triangle = vec4(glm::vec3(part.origin), static_cast<float>(part.size));
+  bounds.corner = vec4(glm::vec3(fit.q.corner), rounded_up(fit.position_error));
+  bounds.edge = vec4(glm::vec3(fit.q.edge), rounded_up(fit.tangent_error));
+  bounds.cone = kNoCone;
+  bounds.triangle = triangle;
+  bounds.gradient_lipschitz = rounded_up(fit.gradient_lipschitz);
   // Less than the roundings of a position.
   constexpr double nothing = 1e-9;
   const dvec3 most = glm::max(glm::abs(fit.q.corner), glm::abs(fit.q.edge));
   const double displacement =
-      std::max({most.x, most.y, most.z}) * longest_of(patch.corners.D) + fit.stray;
+      std::max({most.x, most.y, most.z}) * longest_of(patch.corners.D) + fit.position_error;
   const bool no_displacement = displacement <= nothing * patch.tri.TriNormal.w;
   // The kernel meets the patch's plane, whatever the part: only the whole may be it.
-  cage.flat_part = no_displacement && part.size == 1.0 ? 1 : 0;
-  return cage;
+  bounds.is_flat = no_displacement && part.size == 1.0 ? 1 : 0;
+  return bounds;
 }
 
-void cage_part(const CagedPatch& patch, const SubTriangle& part, int level, uint32_t triangle,
-               std::vector<Cage>& cages) {
+void bound_subpatch(const PatchData& patch, const SubTriangle& part, int level, uint32_t triangle,
+                    std::vector<SubpatchBounds>& subpatches) {
   const Fit found = fit(patch, part);
   const double size = patch.tri.TriNormal.w * std::abs(part.size);
-  const bool close =
-      found.stray <= kClose * size && found.tangent_stray <= kTangentsClose * patch.tri.TriNormal.w;
-  const std::size_t index = cages.size();
-  cages.push_back(cage_of(patch, part, found, triangle));
-  const bool kinked = cages[index].bend == KINKED;
+  const bool close = found.position_error <= kClose * size &&
+                     found.tangent_error <= kTangentsClose * patch.tri.TriNormal.w;
+  const std::size_t index = subpatches.size();
+  subpatches.push_back(bounds_of(patch, part, found, triangle));
+  const bool kinked = subpatches[index].gradient_lipschitz == NONSMOOTH;
   if (close || level == kMostLevels) {
-    if (!kinked) cages[index].cone = normal_cone(patch, part, found);
-    if (cages[index].cone.w <= kWide || level >= kLevelsForCones) return;
+    if (!kinked) subpatches[index].cone = normal_cone(patch, part, found);
+    if (subpatches[index].cone.w <= kWide || level >= kLevelsForCones) return;
   }
   const double half = part.size * 0.5;
   for (int k = 0; k < 3; ++k) {
-    cage_part(patch, {part.origin + corner_weights(k) * half, half}, level + 1, triangle, cages);
+    bound_subpatch(patch, {part.origin + corner_weights(k) * half, half}, level + 1, triangle,
+                   subpatches);
   }
-  cage_part(patch, {part.origin + dvec3(half), -half}, level + 1, triangle, cages);
-  cages[index].skip = static_cast<uint32_t>(cages.size() - index - 1);
+  bound_subpatch(patch, {part.origin + dvec3(half), -half}, level + 1, triangle, subpatches);
+  subpatches[index].skip = static_cast<uint32_t>(subpatches.size() - index - 1);
 }
 
 }  // namespace
 
-bool has_groups(const BakedScene& scene) {
-  return std::any_of(scene.cages.begin(), scene.cages.end(),
-                     [](const Cage& cage) { return cage.skip > 0; });
+bool has_divided_patches(const BakedScene& scene) {
+  return std::any_of(scene.subpatches.begin(), scene.subpatches.end(),
+                     [](const SubpatchBounds& bounds) { return bounds.skip > 0; });
 }
 
-bool has_kinks(const BakedScene& scene) {
-  return std::any_of(scene.cages.begin(), scene.cages.end(),
-                     [](const Cage& cage) { return cage.skip == 0 && cage.bend == KINKED; });
+bool has_nonsmooth(const BakedScene& scene) {
+  return std::any_of(scene.subpatches.begin(), scene.subpatches.end(),
+                     [](const SubpatchBounds& bounds) {
+                       return bounds.skip == 0 && bounds.gradient_lipschitz == NONSMOOTH;
+                     });
 }
 
-std::vector<Cage> bake_cages(const BakedScene& scene) {
+std::vector<SubpatchBounds> bake_subpatches(const BakedScene& scene) {
   // A patch with kinks takes some hundredths of a second.
   constexpr std::size_t size = 16;
-  std::vector<std::vector<Cage>> chunks(scene.triangles.size() / size + 1);
+  std::vector<std::vector<SubpatchBounds>> chunks(scene.triangles.size() / size + 1);
   parallel_chunks(scene.triangles.size(), size, [&](std::size_t first, std::size_t end) {
-    std::vector<Cage>& cages = chunks[first / size];
-    cages.reserve(end - first);
+    std::vector<SubpatchBounds>& subpatches = chunks[first / size];
+    subpatches.reserve(end - first);
     for (std::size_t t = first; t < end; ++t) {
-      cage_part(patch_of(scene.choice, scene.triangles[t]), {}, 0, static_cast<uint32_t>(t), cages);
+      bound_subpatch(patch_of(scene.choice, scene.triangles[t]), {}, 0, static_cast<uint32_t>(t),
+                     subpatches);
     }
   });
-  std::vector<Cage> cages;
-  for (const std::vector<Cage>& chunk : chunks) {
-    cages.insert(cages.end(), chunk.begin(), chunk.end());
+  std::vector<SubpatchBounds> subpatches;
+  for (const std::vector<SubpatchBounds>& chunk : chunks) {
+    subpatches.insert(subpatches.end(), chunk.begin(), chunk.end());
   }
-  return cages;
+  return subpatches;
 }
 
-BakedScene bake_with_cages(const Mesh& mesh, const SurfaceChoice& choice) {
+BakedScene bake_with_subpatches(const Mesh& mesh, const SurfaceChoice& choice) {
   BakedScene scene = bake(mesh, choice);
-  scene.cages = bake_cages(scene);
+  scene.subpatches = bake_subpatches(scene);
   return scene;
 }
 

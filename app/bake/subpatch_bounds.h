@@ -11,15 +11,15 @@ namespace trisect {
 
 // One cage for a patch whose sigma is close to a quadratic, several for parts of one that is not;
 // in the order of the scene's triangles.
-std::vector<Cage> bake_cages(const BakedScene& scene);
+std::vector<SubpatchBounds> bake_subpatches(const BakedScene& scene);
 
 // bake(), and the cages.
-BakedScene bake_with_cages(const Mesh& mesh, const SurfaceChoice& choice);
+BakedScene bake_with_subpatches(const Mesh& mesh, const SurfaceChoice& choice);
 
 // Whether some patch has several.
-bool has_groups(const BakedScene& scene);
+bool has_divided_patches(const BakedScene& scene);
 
 // Whether some part may have a kink.
-bool has_kinks(const BakedScene& scene);
+bool has_nonsmooth(const BakedScene& scene);
 
 }  // namespace trisect

@@ -9,13 +9,13 @@
 namespace trisect {
 
 // In single precision, rounded outward.
-struct PartBox {
+struct SubpatchBox {
   glm::vec3 lo;
   glm::vec3 hi;
 };
 
 // For each of the scene's cages a box that contains the part, enlarged by OVERLAP, and BVH_SLACK of
 // the scene's extent around it; for a group of parts nothing of use.
-std::vector<PartBox> part_boxes(const BakedScene& scene);
+std::vector<SubpatchBox> subpatch_boxes(const BakedScene& scene);
 
 }  // namespace trisect

@@ -6,7 +6,7 @@
 namespace trisect {
 
 // The larger one; a NaN is larger than anything.
-inline void raise(double& most, double value) {
+inline void max_propagating_nan(double& most, double value) {
   if (!std::isnan(most) && !(value <= most)) most = value;
 }
 

@@ -16,13 +16,13 @@ Ablation measure_ablation(const gpu::Device& device, const AblationOptions& opti
   result.patches = subject.mesh.triangles.size();
   result.pixels = std::size_t{options.width} * options.height;
 
-  Field field;
+  Comparison comparison;
   // Returns the step's index.
   const auto add = [&](const char* change, std::size_t from, const View& view,
                        const BakedScene& scene, const KernelChoice& choice, uint32_t rank) {
-    field.add(change, "", view,
-              on_vulkan(kernels_for(device, scene, choice),
-                        params_of(subject.mesh, scene, subject.size, choice.solver, rank)));
+    comparison.add(change, "", view,
+                   on_vulkan(kernels_for(device, scene, choice),
+                             params_of(subject.mesh, scene, subject.size, choice.solver, rank)));
     result.steps.push_back({change, from, {}});
     return result.steps.size() - 1;
   };
@@ -38,7 +38,7 @@ Ablation measure_ablation(const gpu::Device& device, const AblationOptions& opti
       add("bounds of the control points", lists, normal, normal.scene, {.accel = Accel::tiles}, 10);
   add("the tree instead of tiles", hulls, normal, subject.with_tree, {.accel = Accel::bvh}, 10);
   add("the height shell again", hulls, height, height.scene, {.accel = Accel::tiles}, 10);
-  std::vector<Measurement> measured = field.measure(result.model, options.runs);
+  std::vector<Measurement> measured = comparison.measure(result.model, options.runs);
   for (std::size_t i = 0; i < measured.size(); ++i) {
     result.steps[i].measurement = std::move(measured[i]);
   }

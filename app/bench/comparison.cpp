@@ -29,7 +29,7 @@ namespace {
 View view_of(const std::string& model, const Mesh& mesh, const ImageSize& size,
              const SurfaceChoice& choice) {
   View view;
-  view.scene = bake_with_cages(mesh, choice);
+  view.scene = bake_with_subpatches(mesh, choice);
   view.params = params_of(mesh, view.scene, size, SOLVER_ROBUST, 10);
   ProgressLine progress(fmt::format("oracle, {}", model), size.height);
   view.truth = finished(
@@ -55,15 +55,15 @@ std::size_t wrong_pixels(const Measurement& one) {
   return one.errors.wrong + one.errors.missed;
 }
 
-void Field::add(const std::string& family, const std::string& number, const View& view,
-                std::unique_ptr<Contender> contender) {
+void Comparison::add(const std::string& family, const std::string& number, const View& view,
+                     std::unique_ptr<Contender> contender) {
   Measurement measurement;
   measurement.family = family;
   measurement.number = number;
   entries_.push_back({std::move(measurement), &view, std::move(contender), {}});
 }
 
-void Field::inspect(const std::string& family, const std::string& number, Frame& frame) {
+void Comparison::inspect(const std::string& family, const std::string& number, Frame& frame) {
   for (Entry& entry : entries_) {
     if (entry.measurement.family == family && entry.measurement.number == number) {
       entry.contender->inspect(frame);
@@ -71,7 +71,7 @@ void Field::inspect(const std::string& family, const std::string& number, Frame&
   }
 }
 
-std::vector<Measurement> Field::measure(const std::string& model, uint32_t runs) {
+std::vector<Measurement> Comparison::measure(const std::string& model, uint32_t runs) {
   ProgressLine progress(fmt::format("measuring {}", model), entries_.size() * (runs + 2));
   uint64_t done = 0;
   Frame frame;

@@ -63,7 +63,7 @@ struct Measurement {
 
 std::size_t wrong_pixels(const Measurement& one);
 
-class Field {
+class Comparison {
  public:
   // The view, by which it is judged, must outlive the field.
   void add(const std::string& family, const std::string& number, const View& view,

@@ -20,31 +20,33 @@ Scene measure_scene(const gpu::Device& device, const ParetoOptions& options,
   result.model = subject.model;
   result.surface = surface;
   result.patches = subject.mesh.triangles.size();
-  const BakedScene flat = bake_with_cages(subject.mesh, {SURFACE_FLAT, 0.65, SHELL_NORMAL});
+  const BakedScene flat = bake_with_subpatches(subject.mesh, {SURFACE_FLAT, 0.65, SHELL_NORMAL});
 
-  Field field;
+  Comparison comparison;
   for (const auto& [family, view] :
        {std::pair{kThesisHeight, &height}, std::pair{"thesis, normal shell", &normal}}) {
     const auto kernels =
         kernels_for(device, view->scene, {.solver = SOLVER_BISECT, .accel = Accel::list});
     for (const uint32_t rank : options.ranks) {
-      field.add(family, fmt::format("Rank {}", rank), *view,
-                on_vulkan(kernels,
-                          params_of(subject.mesh, view->scene, subject.size, SOLVER_BISECT, rank)));
+      comparison.add(family, fmt::format("Rank {}", rank), *view,
+                     on_vulkan(kernels, params_of(subject.mesh, view->scene, subject.size,
+                                                  SOLVER_BISECT, rank)));
     }
   }
   for (const auto& [family, accel] :
        {std::pair{kRobustTiles, Accel::tiles}, std::pair{"robust, bvh", Accel::bvh},
         std::pair{"robust, list", Accel::list}}) {
-    field.add(family, "", normal,
-              on_vulkan(kernels_for(device, accel == Accel::bvh ? subject.with_tree : normal.scene,
-                                    {.solver = SOLVER_ROBUST, .accel = accel}),
-                        normal.params));
+    comparison.add(
+        family, "", normal,
+        on_vulkan(kernels_for(device, accel == Accel::bvh ? subject.with_tree : normal.scene,
+                              {.solver = SOLVER_ROBUST, .accel = accel}),
+                  normal.params));
   }
   const TraceParams flat_params = params_of(subject.mesh, flat, subject.size, SOLVER_ROBUST, 10);
-  field.add("flat triangles, tiles", "", normal,
-            on_vulkan(kernels_for(device, flat, {.solver = SOLVER_ROBUST, .accel = Accel::tiles}),
-                      flat_params));
+  comparison.add(
+      "flat triangles, tiles", "", normal,
+      on_vulkan(kernels_for(device, flat, {.solver = SOLVER_ROBUST, .accel = Accel::tiles}),
+                flat_params));
   std::vector<uint32_t> divisions = options.divisions;
   if (options.finest_error > 0.0) {
     const BusyLine busy("cutting the surface for Embree");
@@ -53,17 +55,17 @@ Scene measure_scene(const gpu::Device& device, const ParetoOptions& options,
   for (const uint32_t n : divisions) {
     const Tessellation cut = tessellate(normal.scene, n);
     for (const EmbreeRays rays : {EmbreeRays::packets, EmbreeRays::single}) {
-      field.add(embree_name(rays), fmt::format("n = {}", n), normal,
-                on_embree(normal.scene, cut, normal.params, rays));
+      comparison.add(embree_name(rays), fmt::format("n = {}", n), normal,
+                     on_embree(normal.scene, cut, normal.params, rays));
     }
     // The most that OpenGL promises.
     if (n > 64) continue;
-    field.add(kRasterizer, fmt::format("level {}", n), normal,
-              on_opengl(normal.scene, normal.params, n));
+    comparison.add(kRasterizer, fmt::format("level {}", n), normal,
+                   on_opengl(normal.scene, normal.params, n));
   }
-  result.measurements = field.measure(result.model, options.runs);
+  result.measurements = comparison.measure(result.model, options.runs);
   result.truth = height.shown;
-  field.inspect(kThesisHeight, "Rank 10", result.thesis);
+  comparison.inspect(kThesisHeight, "Rank 10", result.thesis);
   return result;
 }
 

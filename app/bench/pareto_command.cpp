@@ -42,7 +42,7 @@ std::vector<std::string> provenance(const gpu::Device& device, const opengl::Con
 
 std::vector<Block> report_of(const std::vector<bench::Scene>& scenes,
                              const std::vector<std::string>& facts,
-                             const std::optional<bench::HardCaseTable>& hard) {
+                             const std::optional<bench::StressTable>& hard) {
   std::vector<Block> blocks;
   blocks.emplace_back(bench::Heading{1, "Speed against error"});
   blocks.emplace_back(bench::Items{facts});
@@ -88,8 +88,8 @@ int bench_pareto(const ParetoOptions& options) {
   bench::expect_gnuplot();
   // What is wrong with a model is said before anything is measured.
   for (const std::string& model : options.models) build_mesh(read_obj(model), model);
-  std::optional<bench::HardCaseTable> hard;
-  if (!options.hardcases.empty()) hard = bench::read_hard_cases(options.hardcases);
+  std::optional<bench::StressTable> hard;
+  if (!options.hardcases.empty()) hard = bench::read_stress_table(options.hardcases);
   const gpu::Instance instance(false);
   const gpu::Device device(instance, options.device);
   const PipelineStore store(device, cache_folder());

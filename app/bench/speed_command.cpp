@@ -66,7 +66,7 @@ class Race {
       : options_(options), mesh_(build_mesh(read_obj(model), model).mesh) {
     const SurfaceChoice normal{surface, 0.65, SHELL_NORMAL};
     double bake_ms = 0.0;
-    scene_ = timed(bake_ms, [&] { return bake_with_cages(mesh_, normal); });
+    scene_ = timed(bake_ms, [&] { return bake_with_subpatches(mesh_, normal); });
     double bvh_ms = bake_ms;
     scene_.bvh = timed(bvh_ms, [&] { return build_bvh(scene_); });
     list_scene_ = scene_;

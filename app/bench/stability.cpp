@@ -62,27 +62,28 @@ Mesh stretched(Mesh mesh, double factor) {
 }
 
 std::vector<Axis> axes() {
-  const auto sphere = [](double) { return hard::sphere(1); };
+  const auto sphere = [](double) { return stress::sphere(1); };
   const auto usual = [](double) { return kUsualDegrees; };
-  return {{"distance", "distance from the origin, radii", true, powers(0, 6),
-           [](double d) { return hard::moved(hard::sphere(1), 1.0, dvec3(0.48, -0.6, 0.64) * d); },
-           usual},
-          {"scale", "scale of the model", true, powers(-6, 6),
-           [](double scale) { return hard::moved(hard::sphere(1), scale, dvec3(0.0)); }, usual},
-          {"grazing",
-           "angle between ray and surface, degrees",
-           true,
-           {90.0, 45.0, 20.0, 10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4},
-           sphere,
-           [](double degrees) { return degrees; }},
-          {"aspect", "patch's length over its width", true, powers(0, 6),
-           [](double aspect) { return stretched(hard::leaning_patch(20.0), aspect); }, usual},
-          {"spread",
-           "lean of the normals, degrees",
-           false,
-           {0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 85.0, 89.0},
-           [](double degrees) { return hard::leaning_patch(degrees); },
-           usual}};
+  return {
+      {"distance", "distance from the origin, radii", true, powers(0, 6),
+       [](double d) { return stress::moved(stress::sphere(1), 1.0, dvec3(0.48, -0.6, 0.64) * d); },
+       usual},
+      {"scale", "scale of the model", true, powers(-6, 6),
+       [](double scale) { return stress::moved(stress::sphere(1), scale, dvec3(0.0)); }, usual},
+      {"grazing",
+       "angle between ray and surface, degrees",
+       true,
+       {90.0, 45.0, 20.0, 10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4},
+       sphere,
+       [](double degrees) { return degrees; }},
+      {"aspect", "patch's length over its width", true, powers(0, 6),
+       [](double aspect) { return stretched(stress::leaning_patch(20.0), aspect); }, usual},
+      {"spread",
+       "lean of the normals, degrees",
+       false,
+       {0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 85.0, 89.0},
+       [](double degrees) { return stress::leaning_patch(degrees); },
+       usual}};
 }
 
 // Rays at any points of the surface, from the side of its normal.
@@ -90,12 +91,12 @@ std::vector<CastRay> rays_at(const BakedScene& scene, double degrees, uint32_t c
                              std::mt19937_64& random) {
   std::vector<CastRay> rays;
   while (rays.size() < count) {
-    const hard::SurfacePoint point = hard::any_point(scene, random);
+    const stress::SurfacePoint point = stress::any_point(scene, random);
     if (!(glm::length(point.normal) > 0.5)) continue;
     const double angle = glm::radians(degrees);
     const dvec3 direction =
-        hard::across(point.normal, random) * std::cos(angle) - point.normal * std::sin(angle);
-    rays.push_back(hard::ray_through(scene, point.position, direction));
+        stress::across(point.normal, random) * std::cos(angle) - point.normal * std::sin(angle);
+    rays.push_back(stress::ray_through(scene, point.position, direction));
   }
   return rays;
 }
@@ -104,7 +105,7 @@ StabilityPoint measure(const Axis& axis, const Solver& solver, double value, uin
   const Mesh mesh = axis.mesh(value);
   const SurfaceChoice choice{SURFACE_PHONG, 0.65, solver.shell};
   const BakedScene scene =
-      solver.solver == SOLVER_ROBUST ? bake_with_cages(mesh, choice) : bake(mesh, choice);
+      solver.solver == SOLVER_ROBUST ? bake_with_subpatches(mesh, choice) : bake(mesh, choice);
   // The same points and directions for all values.
   std::mt19937_64 random(5);
   const std::vector<CastRay> rays = rays_at(scene, axis.degrees(value), count, random);
@@ -130,8 +131,9 @@ StabilityPoint measure(const Axis& axis, const Solver& solver, double value, uin
     double off = 1.0;
     if (met && answer.hit && std::isfinite(hit.z)) {
       const double depth = std::abs(static_cast<double>(hit.z) - answer.root.t);
-      off = std::min(1.0, depth / scene.radius *
-                              std::abs(glm::dot(answer.root.normal, widened(rays[i]).direction)));
+      off = std::min(1.0,
+                     depth / scene.radius *
+                         std::abs(glm::dot(answer.root.normal, to_oracle_ray(rays[i]).direction)));
     }
     squares += off * off;
   }

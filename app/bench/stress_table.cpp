@@ -9,12 +9,12 @@
 
 namespace trisect::bench {
 
-HardCaseTable read_hard_cases(const std::string& file) {
+StressTable read_stress_table(const std::string& file) {
   std::ifstream in(file);
   if (!in) throw InputError(file + ": cannot be read.");
   try {
     const nlohmann::json json = nlohmann::json::parse(in);
-    HardCaseTable result;
+    StressTable result;
     result.device =
         json.at("device").get<std::string>() + ", " + json.at("driver").get<std::string>();
     result.table.rows.push_back({"case", "surface", "shell", "solver", "rays", "undecidable",

@@ -7,13 +7,13 @@
 
 namespace trisect::bench {
 
-struct HardCaseTable {
+struct StressTable {
   std::string device;  // and its driver
   Table table;
 };
 
 // Of what `trisect hardcases --json` wrote into the file. Throws InputError, naming it, if that
 // cannot be read.
-HardCaseTable read_hard_cases(const std::string& file);
+StressTable read_stress_table(const std::string& file);
 
 }  // namespace trisect::bench

@@ -44,7 +44,7 @@ std::array<Corner, 3> corners_of(uint32_t index) {
 
 // The error of one patch, in units of length.
 double patch_error(const BakedScene& scene, const Triangle& baked, uint32_t n) {
-  const in_double::Triangle tri = widen(baked);
+  const in_double::Triangle tri = to_double(baked);
   const in_double::Shape shape = shape_of(scene.choice);
   std::vector<dvec3> points;
   points.reserve((n + 1) * (n + 2) / 2);
@@ -85,7 +85,7 @@ Tessellation tessellate(const BakedScene& scene, uint32_t n) {
   flat.vertices.resize(scene.triangles.size() * vertices_of_patch);
   flat.triangles.resize(scene.triangles.size() * triangles_of_patch);
   const auto patch = [&](std::size_t t) {
-    const in_double::Triangle tri = widen(scene.triangles[t]);
+    const in_double::Triangle tri = to_double(scene.triangles[t]);
     const in_double::Shape shape = shape_of(scene.choice);
     const std::size_t first = t * vertices_of_patch;
     for (uint32_t row = 0; row <= n; ++row) {

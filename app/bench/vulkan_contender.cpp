@@ -17,7 +17,7 @@ class ImageOnly : public Contender {
  public:
   ImageOnly(const gpu::Device& device, const TraceParams& params)
       : params_(params),
-        kernel_(device, kFloorSpirv, floor_interface(), {}, "floor"),
+        kernel_(device, kClearImageSpirv, clear_image_interface(), {}, "clear_image"),
         commands_(device),
         params_buffer_(device, sizeof(TraceParams), gpu::Memory::device, "trace parameters"),
         colors_(device, std::size_t{params.width} * params.height * sizeof(vec4),
@@ -48,7 +48,7 @@ class ImageOnly : public Contender {
   gpu::Commands commands_;
   gpu::Buffer params_buffer_;
   gpu::Buffer colors_;
-  gpu::BoundBuffers bound_;
+  gpu::DescriptorSet bound_;
 };
 
 }  // namespace

@@ -32,8 +32,8 @@ std::size_t triangle_bytes(const std::string& device, std::size_t limit, const B
   return bytes;
 }
 
-std::size_t cage_bytes(const std::string& device, std::size_t limit, const BakedScene& scene) {
-  return bytes_of(device, limit, scene.cages, "the bounds of the model's patches take");
+std::size_t subpatch_bytes(const std::string& device, std::size_t limit, const BakedScene& scene) {
+  return bytes_of(device, limit, scene.subpatches, "the bounds of the model's patches take");
 }
 
 std::size_t bvh_bytes(const std::string& device, std::size_t limit, const BakedScene& scene) {

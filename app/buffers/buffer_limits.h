@@ -18,7 +18,7 @@ inline constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 std::size_t triangle_bytes(const std::string& device, std::size_t limit, const BakedScene& scene);
 
 // Of one cage at least: a binding wants a buffer, also if no solver reads it.
-std::size_t cage_bytes(const std::string& device, std::size_t limit, const BakedScene& scene);
+std::size_t subpatch_bytes(const std::string& device, std::size_t limit, const BakedScene& scene);
 
 // Of one entry at least, likewise.
 std::size_t bvh_bytes(const std::string& device, std::size_t limit, const BakedScene& scene);

@@ -35,8 +35,8 @@ namespace {
 }  // namespace
 
 const std::span<const uint32_t> kTraceListSpirv(trace_list_spirv);
-const std::span<const uint32_t> kViewPartsSpirv(project_subpatches_spirv);
-const std::span<const uint32_t> kBinPartsSpirv(bin_subpatches_spirv);
+const std::span<const uint32_t> kProjectSubpatchesSpirv(project_subpatches_spirv);
+const std::span<const uint32_t> kBinSubpatchesSpirv(bin_subpatches_spirv);
 const std::span<const uint32_t> kFillSkySpirv(fill_sky_spirv);
 const std::span<const uint32_t> kTraceTilesSpirv(trace_tiles_spirv);
 const std::span<const uint32_t> kTraceUndecidedSpirv(trace_undecided_spirv);
@@ -45,7 +45,7 @@ const std::span<const uint32_t> kTracePacketsAtSpirv(trace_packets_at_spirv);
 const std::span<const uint32_t> kTraceBvhSpirv(trace_bvh_spirv);
 const std::span<const uint32_t> kTraceBvhAtSpirv(trace_bvh_at_spirv);
 const std::span<const uint32_t> kTraceQuerySpirv(trace_query_spirv);
-const std::span<const uint32_t> kFloorSpirv(clear_image_spirv);
+const std::span<const uint32_t> kClearImageSpirv(clear_image_spirv);
 const std::span<const uint32_t> kScreenVertSpirv(screen_vert_spirv);
 const std::span<const uint32_t> kScreenFragSpirv(screen_frag_spirv);
 const std::span<const uint32_t> kCastRaysSpirv(cast_rays_spirv);
@@ -78,12 +78,12 @@ gpu::KernelInterface frame_interface() {
            {BINDING_TRIANGLES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {BINDING_COLOR, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {BINDING_AOVS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-           {BINDING_CAGES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+           {BINDING_SUBPATCHES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {BINDING_QUEUE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {BINDING_QUEUED, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-           {BINDING_VIEW_PARTS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+           {BINDING_PROJECTED, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {BINDING_TILE_COUNTS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-           {BINDING_TILE_PARTS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+           {BINDING_TILE_SUBPATCHES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {BINDING_TILE_ORDER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {BINDING_TILES_SEEN, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {BINDING_BVH, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
@@ -91,7 +91,7 @@ gpu::KernelInterface frame_interface() {
           sizeof(TilePush)};
 }
 
-gpu::KernelInterface floor_interface() {
+gpu::KernelInterface clear_image_interface() {
   return {{{BINDING_PARAMS, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
            {BINDING_COLOR, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}},
           0};
@@ -100,7 +100,7 @@ gpu::KernelInterface floor_interface() {
 gpu::KernelInterface cast_rays_interface() {
   return {{{BINDING_PARAMS, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
            {BINDING_TRIANGLES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-           {BINDING_CAGES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+           {BINDING_SUBPATCHES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {BINDING_RAYS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {BINDING_HITS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {BINDING_QUEUE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},

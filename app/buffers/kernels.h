@@ -11,8 +11,8 @@
 namespace trisect {
 
 extern const std::span<const uint32_t> kTraceListSpirv;
-extern const std::span<const uint32_t> kViewPartsSpirv;
-extern const std::span<const uint32_t> kBinPartsSpirv;
+extern const std::span<const uint32_t> kProjectSubpatchesSpirv;
+extern const std::span<const uint32_t> kBinSubpatchesSpirv;
 extern const std::span<const uint32_t> kFillSkySpirv;
 extern const std::span<const uint32_t> kTraceTilesSpirv;
 extern const std::span<const uint32_t> kTraceUndecidedSpirv;
@@ -22,7 +22,7 @@ extern const std::span<const uint32_t> kTraceBvhSpirv;
 extern const std::span<const uint32_t> kTracePacketsAtSpirv;
 extern const std::span<const uint32_t> kTraceBvhAtSpirv;
 extern const std::span<const uint32_t> kTraceQuerySpirv;
-extern const std::span<const uint32_t> kFloorSpirv;
+extern const std::span<const uint32_t> kClearImageSpirv;
 // Of the window that shows a frame.
 extern const std::span<const uint32_t> kScreenVertSpirv;
 extern const std::span<const uint32_t> kScreenFragSpirv;
@@ -49,6 +49,6 @@ gpu::KernelInterface cast_rays_interface();
 // Of the fragment shader that shows a frame in a window.
 gpu::KernelInterface screen_interface();
 // Of the kernel that writes an image and nothing else.
-gpu::KernelInterface floor_interface();
+gpu::KernelInterface clear_image_interface();
 
 }  // namespace trisect

@@ -34,33 +34,35 @@ class SceneBuffers {
 
   // Of all of them.
   [[nodiscard]] std::size_t bytes() const {
-    return triangles_.size() + cages_.size() + bvh_.size() + addresses_.size() +
+    return triangles_.size() + subpatches_.size() + bvh_.size() + addresses_.size() +
            (boxes_ ? boxes_->bytes() : 0);
   }
 
   [[nodiscard]] bool by_address() const { return by_address_; }
 
-  // What kernels bind as BINDING_TRIANGLES, BINDING_CAGES, BINDING_BVH and BINDING_ADDRESSES.
+  // What kernels bind as BINDING_TRIANGLES, BINDING_SUBPATCHES, BINDING_BVH and BINDING_ADDRESSES.
   [[nodiscard]] const gpu::Buffer& triangles() const { return by_address_ ? unused_ : triangles_; }
-  [[nodiscard]] const gpu::Buffer& cages() const { return by_address_ ? unused_ : cages_; }
+  [[nodiscard]] const gpu::Buffer& subpatches() const {
+    return by_address_ ? unused_ : subpatches_;
+  }
   [[nodiscard]] const gpu::Buffer& bvh() const { return by_address_ ? unused_ : bvh_; }
   [[nodiscard]] const gpu::Buffer& addresses() const { return addresses_; }
 
  private:
   // How kernels reach the buffers, and the most bytes that one of them may have for it.
-  struct Reach {
+  struct Placement {
     std::size_t limit;
     gpu::Memory memory;
   };
-  SceneBuffers(const gpu::Device& device, const BakedScene& scene, const Reach& reach);
+  SceneBuffers(const gpu::Device& device, const BakedScene& scene, const Placement& placement);
 
   bool by_address_;
   gpu::Buffer triangles_;
-  gpu::Buffer cages_;
+  gpu::Buffer subpatches_;
   gpu::Buffer bvh_;
   gpu::Buffer addresses_;
   gpu::Buffer unused_;
-  std::unique_ptr<gpu::BoxStructure> boxes_;
+  std::unique_ptr<gpu::AabbAccelerationStructure> boxes_;
 };
 
 }  // namespace trisect

@@ -84,7 +84,7 @@ std::vector<Row> measure_model(const gpu::Device& device, const AccuracyOptions&
   std::vector<Row> rows;
   for (const uint surface : options.surfaces) {
     for (const uint shell : options.shells) {
-      const BakedScene scene = bake_with_cages(mesh, {surface, options.alpha, shell});
+      const BakedScene scene = bake_with_subpatches(mesh, {surface, options.alpha, shell});
       TraceSettings settings = framed_settings(mesh, scene, options.width, options.height);
       ProgressLine progress(fmt::format("oracle, {}", model), options.height);
       const OracleFrame truth = finished(trace_with_oracle(

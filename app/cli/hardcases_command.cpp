@@ -24,7 +24,7 @@ void print_header() {
              "p99 ulp", "max ulp", "NaNs", "eval/ray", "verdict");
 }
 
-void print_row(const HardRow& row) {
+void print_row(const StressRow& row) {
   const CheckedOutcome& outcome = row.outcome;
   fmt::print(
       "{:<23} {:<7} {:<7} {:<7} {:>5} {:>6} {:>6} {:>6} {:>8.3g} {:>8.3g} {:>9.3g} {:>5} {:>8.1f}  "
@@ -35,7 +35,7 @@ void print_row(const HardRow& row) {
       outcome.note.empty() ? "" : fmt::format(" ({})", outcome.note));
 }
 
-nlohmann::ordered_json json_of(const HardRow& row) {
+nlohmann::ordered_json json_of(const StressRow& row) {
   const CheckedOutcome& outcome = row.outcome;
   return {{"case", row.name},
           {"what", row.what},
@@ -57,42 +57,42 @@ nlohmann::ordered_json json_of(const HardRow& row) {
           {"note", outcome.note}};
 }
 
-std::string to_json(const HardBackend& backend, const std::vector<HardRow>& rows) {
+std::string to_json(const StressBackend& backend, const std::vector<StressRow>& rows) {
   nlohmann::ordered_json json;
   json["program"] = "trisect";
   json["version"] = TRISECT_VERSION;
   json["device"] = backend.device;
   json["driver"] = backend.driver;
   json["rows"] = nlohmann::ordered_json::array();
-  for (const HardRow& row : rows) json["rows"].push_back(json_of(row));
+  for (const StressRow& row : rows) json["rows"].push_back(json_of(row));
   return json_text(json);
 }
 
-std::vector<HardRow> run_all(const HardBackend& backend) {
-  std::vector<HardRow> rows;
-  const auto add = [&](HardRow row) {
+std::vector<StressRow> run_all(const StressBackend& backend) {
+  std::vector<StressRow> rows;
+  const auto add = [&](StressRow row) {
     print_row(row);
     rows.push_back(std::move(row));
     stop_if_interrupted();
   };
-  for (const RayCase& hard : hard_ray_catalogue()) {
-    for (const uint surface : hard.surfaces) {
-      for (HardRow& row : run_rows(hard, surface, backend)) add(std::move(row));
+  for (const RayCase& stress : stress_ray_catalogue()) {
+    for (const uint surface : stress.surfaces) {
+      for (StressRow& row : run_rows(stress, surface, backend)) add(std::move(row));
     }
   }
-  for (const CheckedCase& hard : hard_checked_cases()) add(run_row(hard, backend));
+  for (const CheckedCase& stress : stress_checked_cases()) add(run_row(stress, backend));
   return rows;
 }
 
-int run_on(const HardcasesOptions& options, const HardBackend& backend) {
+int run_on(const HardcasesOptions& options, const StressBackend& backend) {
   std::optional<AtomicFile> json;
   if (!options.json.empty()) json.emplace(options.json);
   fmt::print("device {}, driver {}\n", backend.device, backend.driver);
   print_header();
-  const std::vector<HardRow> rows = run_all(backend);
+  const std::vector<StressRow> rows = run_all(backend);
   std::size_t binding = 0;
   std::size_t failed = 0;
-  for (const HardRow& row : rows) {
+  for (const StressRow& row : rows) {
     binding += row.binding() ? 1 : 0;
     failed += row.binding() && row.verdict != "pass" ? 1 : 0;
   }
@@ -111,11 +111,11 @@ int run_on(const HardcasesOptions& options, const HardBackend& backend) {
 }  // namespace
 
 int hardcases(const HardcasesOptions& options) {
-  if (options.backend == Backend::cpu) return run_on(options, cpu_hard_backend());
+  if (options.backend == Backend::cpu) return run_on(options, cpu_stress_backend());
   const gpu::Instance instance(false);
   const gpu::Device device(instance, options.device);
   const PipelineStore store(device, cache_folder());
-  return run_on(options, vulkan_hard_backend(device));
+  return run_on(options, vulkan_stress_backend(device));
 }
 
 }  // namespace trisect

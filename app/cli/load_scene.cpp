@@ -62,7 +62,7 @@ LoadedScene load_scene(const RenderOptions& options) {
   fmt::print("{}: {}\n", options.model, describe(built.report));
   loaded.scene = timed("baking", loaded.bake_ms, [&] {
     const SurfaceChoice choice{options.surface, options.alpha, options.shell};
-    return options.solver == SOLVER_ROBUST ? bake_with_cages(built.mesh, choice)
+    return options.solver == SOLVER_ROBUST ? bake_with_subpatches(built.mesh, choice)
                                            : bake(built.mesh, choice);
   });
   loaded.params = make_params(loaded.scene, settings_of(options, built.mesh, loaded.scene));

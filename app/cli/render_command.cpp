@@ -46,7 +46,7 @@ int render(const RenderOptions& options) {
   expect_distinct(options);
   LoadedScene loaded = load_scene(options);
   const Accel accel =
-      chosen_accel(accel_request(options), options.backend, loaded.scene.cages.size());
+      chosen_accel(accel_request(options), options.backend, loaded.scene.subpatches.size());
   if (needs_bvh(accel, options.shadows)) add_bvh(loaded);
 
   AtomicFile image(options.output);

@@ -23,7 +23,7 @@ struct AccelRequest {
 // The one asked for, or, if that is left open, the one that is likely to be the fastest for a scene
 // of so many parts: tiles, or the tree if the scene has more than four parts for each tile of the
 // image, wherever they can be had. Throws UsageError if what is asked for cannot be.
-Accel chosen_accel(const AccelRequest& request, Backend backend, std::size_t parts);
+Accel chosen_accel(const AccelRequest& request, Backend backend, std::size_t subpatches);
 
 // Whether rays need the scene's bvh: those of a camera, or those of shadows beside tiles.
 bool needs_bvh(Accel accel, bool shadows);

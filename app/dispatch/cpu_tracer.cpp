@@ -14,20 +14,20 @@ constexpr int kSteps = std::numeric_limits<int>::max();
 
 using in_float::Kernel;
 
-void walk_through(Kernel& kernel, const Kernel::PixelRay& ray, in_float::Walk& walk) {
-  for (uint pass = 0; pass == 0 || !kernel.is_through(ray, walk); ++pass) {
-    kernel.go_on(ray, pass, walk);
+void finish_traversal(Kernel& kernel, const Kernel::PixelRay& ray, in_float::Traversal& traversal) {
+  for (uint pass = 0; pass == 0 || !kernel.is_finished(ray, traversal); ++pass) {
+    kernel.resume(ray, pass, traversal);
   }
 }
 
 // What a pixel's ray has met, in its shadow or not.
 void cast_shadow(Kernel& kernel, const glm::vec3& view, PixelAovs& met, vec4& color) {
   const Kernel::PixelRay ray = kernel.shadow_ray(met, view);
-  in_float::Walk walk = kernel.shadow_walk_begun(met, view, kSteps);
-  walk_through(kernel, ray, walk);
-  if (walk.hit.triangle != NO_TRIANGLE) color = kernel.shadow_color();
-  met.evaluations += walk.counts.evaluations;
-  met.candidates += walk.counts.candidates;
+  in_float::Traversal traversal = kernel.begin_shadow_traversal(met, view, kSteps);
+  finish_traversal(kernel, ray, traversal);
+  if (traversal.hit.triangle != NO_TRIANGLE) color = kernel.shadow_color();
+  met.evaluations += traversal.counts.evaluations;
+  met.candidates += traversal.counts.candidates;
 }
 
 }  // namespace
@@ -44,9 +44,9 @@ bool trace_on_cpu(const BakedScene& scene, const TraceParams& params, const Kern
       const std::size_t pixel = std::size_t{y} * params.width + x;
       PixelAovs aovs{};
       const Kernel::PixelRay ray = kernel.pixel_ray({x, y});
-      in_float::Walk walk = kernel.walk_begun(kSteps);
-      walk_through(kernel, ray, walk);
-      kernel.finish_pixel(ray, walk, frame.colors[pixel], aovs);
+      in_float::Traversal traversal = kernel.begin_traversal(kSteps);
+      finish_traversal(kernel, ray, traversal);
+      kernel.finish_pixel(ray, traversal, frame.colors[pixel], aovs);
       if (choice.shadows) cast_shadow(shadows, ray.view, aovs, frame.colors[pixel]);
       if (choice.aovs) frame.aovs[pixel] = aovs;
     }
@@ -61,10 +61,10 @@ std::vector<CastHit> cast_on_cpu(const BakedScene& scene, const TraceParams& par
   parallel_chunks(rays.size(), kChunk, [&](std::size_t first, std::size_t end) {
     Kernel kernel = shared;
     for (std::size_t i = first; i < end; ++i) {
-      const Kernel::PixelRay ray = kernel.ray_cast(rays[i]);
-      in_float::Walk walk = kernel.walk_begun(kSteps);
-      walk_through(kernel, ray, walk);
-      hits[i] = kernel.hit_cast(ray, walk);
+      const Kernel::PixelRay ray = kernel.ray_of_cast(rays[i]);
+      in_float::Traversal traversal = kernel.begin_traversal(kSteps);
+      finish_traversal(kernel, ray, traversal);
+      hits[i] = kernel.cast_result(ray, traversal);
     }
   });
   return hits;

@@ -7,14 +7,14 @@ namespace trisect::in_float {
 Kernel kernel_of(const BakedScene& scene, const TraceParams& params, const KernelChoice& choice) {
   return {params,
           scene.triangles.data(),
-          scene.cages.data(),
+          scene.subpatches.data(),
           scene.choice.surface,
           scene.choice.shell,
           choice.solver,
           choice.writes_aovs(),
           choice.counts,
-          has_groups(scene),
-          has_kinks(scene),
+          has_divided_patches(scene),
+          has_nonsmooth(scene),
           false};
 }
 

@@ -19,14 +19,14 @@ namespace trisect::in_float {
 struct Kernel {
   const TraceParams& params;
   const Triangle* triangles;
-  const Cage* cages;
+  const SubpatchBounds* subpatches;
   uint SURFACE;
   uint SHELL;
   uint SOLVER;
   bool AOVS;
   bool COUNTS;
-  bool GROUPS;
-  bool KINKS;
+  bool DIVIDED;
+  bool MAY_BE_NONSMOOTH;
   bool SHADOWS;
 
 #include "shaders/rays.glsl"

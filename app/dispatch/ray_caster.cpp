@@ -24,16 +24,17 @@ std::shared_ptr<const gpu::Kernel> RayCaster::kernel_for(const gpu::Device& devi
       std::vector<gpu::Specialization>{{CONSTANT_SURFACE, choice.surface},
                                        {CONSTANT_SHELL, choice.shell},
                                        {CONSTANT_SOLVER, solver},
-                                       {CONSTANT_GROUPS, needs.groups ? 1U : 0U},
-                                       {CONSTANT_KINKS, needs.kinks ? 1U : 0U}},
+                                       {CONSTANT_DIVIDED, needs.groups ? 1U : 0U},
+                                       {CONSTANT_NONSMOOTH, needs.kinks ? 1U : 0U}},
       "cast_rays");
 }
 
 RayCaster::RayCaster(const gpu::Device& device, const BakedScene& scene, const TraceParams& params,
                      uint solver, std::shared_ptr<const gpu::Kernel> kernel, uint32_t steps)
     : kernel_(kernel ? std::move(kernel)
-                     : kernel_for(device, scene.choice, solver,
-                                  {has_groups(scene), has_kinks(scene), !scene.bvh.empty()})),
+                     : kernel_for(
+                           device, scene.choice, solver,
+                           {has_divided_patches(scene), has_nonsmooth(scene), !scene.bvh.empty()})),
       commands_(device),
       staging_(device, kBatchBytes),
       params_(device, sizeof(TraceParams), gpu::Memory::device, "trace parameters"),
@@ -42,7 +43,7 @@ RayCaster::RayCaster(const gpu::Device& device, const BakedScene& scene, const T
       hits_(device, kBatch * sizeof(CastHit), gpu::Memory::device, "hits"),
       queue_(device, kBatch, steps),
       bound_(device, *kernel_,
-             {&params_, &scene_.triangles(), &scene_.cages(), &rays_, &hits_, &queue_.paused(),
+             {&params_, &scene_.triangles(), &scene_.subpatches(), &rays_, &hits_, &queue_.paused(),
               &queue_.queued(), &scene_.bvh()}) {
   staging_.upload(commands_, std::as_bytes(std::span(&params, 1)), params_);
   scene_.upload(staging_, commands_, scene);

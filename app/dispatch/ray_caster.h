@@ -15,8 +15,8 @@ namespace trisect {
 
 class RayCaster {
  public:
-  // What a kernel must be made for: divided patches (has_groups), parts with kinks (has_kinks), and
-  // whether rays go by a bvh, which all of its scenes then need.
+  // What a kernel must be made for: divided patches (has_divided_patches), parts with kinks
+  // (has_nonsmooth), and whether rays go by a bvh, which all of its scenes then need.
   struct Needs {
     bool groups = true;
     bool kinks = true;
@@ -47,7 +47,7 @@ class RayCaster {
   gpu::Buffer rays_;
   gpu::Buffer hits_;
   RayQueue queue_;
-  gpu::BoundBuffers bound_;
+  gpu::DescriptorSet bound_;
 };
 
 }  // namespace trisect

@@ -22,7 +22,7 @@ inline uint64_t bytes_in(const QueueState& state) {
 // constants and returns how many rays paused, or nothing to stop: then false is returned. half:
 // places of a queue's half, 0 if a ray has its own.
 template <typename Submit>
-bool walk_all(uint32_t steps, uint32_t half, Submit&& submit) {
+bool run_until_finished(uint32_t steps, uint32_t half, Submit&& submit) {
   QueuePush queue{0, steps, 0, half, 0};
   while (true) {
     const std::optional<uint32_t> paused = submit(queue);
@@ -50,7 +50,7 @@ class RayQueue {
   // Returns milliseconds on the device; nothing if it said stop.
   template <typename Push>
   std::optional<double> run(gpu::Commands& commands, std::span<const gpu::Kernel> kernels,
-                            const gpu::BoundBuffers& bound, Push push, uint32_t groups,
+                            const gpu::DescriptorSet& bound, Push push, uint32_t groups,
                             uint32_t group_rays, const KeepGoing& keep_going = {}) {
     return run_all(commands, kernels, bound, groups, group_rays, keep_going,
                    [&push](const QueuePush& queue) {
@@ -69,7 +69,7 @@ class RayQueue {
  private:
   using PushBytes = std::function<std::span<const std::byte>(const QueuePush&)>;
   std::optional<double> run_all(gpu::Commands& commands, std::span<const gpu::Kernel> kernels,
-                                const gpu::BoundBuffers& bound, uint32_t groups,
+                                const gpu::DescriptorSet& bound, uint32_t groups,
                                 uint32_t group_rays, const KeepGoing& keep_going,
                                 const PushBytes& push_bytes);
 

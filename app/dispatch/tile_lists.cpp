@@ -18,20 +18,21 @@ std::span<const std::byte> bytes_of(const TilePush& push) {
 TileLists::Tiles::Tiles(const gpu::Device& device, uint32_t width, uint32_t band_rows)
     : counts(device, std::size_t{tiles_across(width)} * tiles_across(band_rows) * sizeof(uint32_t),
              gpu::Memory::device, "number of parts of tiles"),
-      parts(device, counts.size() * TILE_PARTS, gpu::Memory::device, "parts of tiles"),
+      subpatches(device, counts.size() * TILE_CAPACITY, gpu::Memory::device, "parts of tiles"),
       order(device, counts.size(), gpu::Memory::device, "order of tiles") {}
 
 TileLists::TileLists(const gpu::Device& device, const std::vector<gpu::Specialization>& constants,
-                     const KernelCode* code, uint32_t parts, uint32_t width, uint32_t band_rows)
-    : groups_((parts + PARTS_SIZE - 1) / PARTS_SIZE),
-      view_kernel_(device, newest(code, "project_subpatches", kViewPartsSpirv), frame_interface(),
-                   constants, "project_subpatches"),
-      bin_kernel_(device, newest(code, "bin_subpatches", kBinPartsSpirv), frame_interface(),
+                     const KernelCode* code, uint32_t subpatches, uint32_t width,
+                     uint32_t band_rows)
+    : groups_((subpatches + SUBPATCH_GROUP_SIZE - 1) / SUBPATCH_GROUP_SIZE),
+      view_kernel_(device, newest(code, "project_subpatches", kProjectSubpatchesSpirv),
+                   frame_interface(), constants, "project_subpatches"),
+      bin_kernel_(device, newest(code, "bin_subpatches", kBinSubpatchesSpirv), frame_interface(),
                   constants, "bin_subpatches"),
       sky_kernel_(device, newest(code, "fill_sky", kFillSkySpirv), frame_interface(), constants,
                   "fill_sky"),
-      view_parts_(device, std::size_t{parts} * sizeof(ViewPart), gpu::Memory::device,
-                  "parts in view"),
+      projected_(device, std::size_t{subpatches} * sizeof(ProjectedSubpatch), gpu::Memory::device,
+                 "parts in view"),
       tiles_(device, width, band_rows),
       seen_(device, sizeof(uint32_t), gpu::Memory::host, "number of tiles that see a part") {}
 
@@ -39,13 +40,13 @@ void TileLists::resize(const gpu::Device& device, uint32_t width, uint32_t band_
   tiles_ = Tiles(device, width, band_rows);
 }
 
-double TileLists::view(gpu::Commands& commands, const gpu::BoundBuffers& bound) {
+double TileLists::view(gpu::Commands& commands, const gpu::DescriptorSet& bound) {
   commands.begin();
   commands.dispatch(view_kernel_, bound, bytes_of({}), groups_);
   return commands.submit_and_wait();
 }
 
-double TileLists::bin(gpu::Commands& commands, const gpu::BoundBuffers& bound, uint32_t width,
+double TileLists::bin(gpu::Commands& commands, const gpu::DescriptorSet& bound, uint32_t width,
                       uint32_t first_row, uint32_t rows, uint32_t& tiles_seen) {
   const uint32_t chunks = (tiles_across(rows) + BIN_ROWS - 1) / BIN_ROWS;
   const TilePush push{{}, 0, first_row, rows};

@@ -20,7 +20,7 @@ TraceParams make_params(const BakedScene& scene, const TraceSettings& settings) 
   params.width = settings.width;
   params.height = settings.height;
   params.triangle_count = static_cast<uint32_t>(scene.triangles.size());
-  params.cage_count = static_cast<uint32_t>(scene.cages.size());
+  params.subpatch_count = static_cast<uint32_t>(scene.subpatches.size());
   params.rank = settings.rank;
   params.alpha = static_cast<float>(scene.choice.alpha);
   params.resolution = static_cast<float>(std::ldexp(1.0, -static_cast<int>(settings.rank)));

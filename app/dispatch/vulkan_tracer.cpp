@@ -19,11 +19,14 @@ namespace {
 constexpr std::size_t kStagingBytes = std::size_t{32} << 20U;
 
 std::vector<gpu::Specialization> constants_of(const BakedScene& scene, const KernelChoice& choice) {
-  return {
-      {CONSTANT_SURFACE, scene.choice.surface},   {CONSTANT_SHELL, scene.choice.shell},
-      {CONSTANT_SOLVER, choice.solver},           {CONSTANT_AOVS, choice.writes_aovs() ? 1U : 0U},
-      {CONSTANT_COUNTS, choice.counts ? 1U : 0U}, {CONSTANT_GROUPS, has_groups(scene) ? 1U : 0U},
-      {CONSTANT_BALLS, choice.balls ? 1U : 0U},   {CONSTANT_KINKS, has_kinks(scene) ? 1U : 0U}};
+  return {{CONSTANT_SURFACE, scene.choice.surface},
+          {CONSTANT_SHELL, scene.choice.shell},
+          {CONSTANT_SOLVER, choice.solver},
+          {CONSTANT_AOVS, choice.writes_aovs() ? 1U : 0U},
+          {CONSTANT_COUNTS, choice.counts ? 1U : 0U},
+          {CONSTANT_DIVIDED, has_divided_patches(scene) ? 1U : 0U},
+          {CONSTANT_BALLS, choice.balls ? 1U : 0U},
+          {CONSTANT_NONSMOOTH, has_nonsmooth(scene) ? 1U : 0U}};
 }
 
 std::optional<TileLists> lists_for(const gpu::Device& device, const BakedScene& scene,
@@ -35,7 +38,7 @@ std::optional<TileLists> lists_for(const gpu::Device& device, const BakedScene& 
                       " lacks the subgroup operations of --accel tiles; use --accel list.");
   }
   return std::optional<TileLists>(std::in_place, device, constants_of(scene, choice), code,
-                                  static_cast<uint32_t>(scene.cages.size()), width, band_rows);
+                                  static_cast<uint32_t>(scene.subpatches.size()), width, band_rows);
 }
 
 SceneBuffers::ByAddress by_address_for(const gpu::Device& device, Accel accel) {
@@ -133,14 +136,14 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
   upload_ms_ = watch.milliseconds();
 }
 
-gpu::BoundBuffers VulkanTracer::bind() const {
+gpu::DescriptorSet VulkanTracer::bind() const {
   return {device_,
           kernels_[0],
-          {&params_, &scene_.triangles(), &image_.colors, &image_.aovs, &scene_.cages(),
-           &image_.queue.paused(), &image_.queue.queued(),
-           tiles_ ? &tiles_->view_parts() : &unused_, tiles_ ? &tiles_->counts() : &unused_,
-           tiles_ ? &tiles_->parts() : &unused_, tiles_ ? &tiles_->order() : &unused_,
-           tiles_ ? &tiles_->seen() : &unused_, &scene_.bvh(), &scene_.addresses()}};
+          {&params_, &scene_.triangles(), &image_.colors, &image_.aovs, &scene_.subpatches(),
+           &image_.queue.paused(), &image_.queue.queued(), tiles_ ? &tiles_->projected() : &unused_,
+           tiles_ ? &tiles_->counts() : &unused_, tiles_ ? &tiles_->subpatches() : &unused_,
+           tiles_ ? &tiles_->order() : &unused_, tiles_ ? &tiles_->seen() : &unused_, &scene_.bvh(),
+           &scene_.addresses()}};
 }
 
 void VulkanTracer::resize(uint32_t width, uint32_t height) {

@@ -75,7 +75,7 @@ class VulkanTracer {
     RayQueue queue;
   };
 
-  [[nodiscard]] gpu::BoundBuffers bind() const;
+  [[nodiscard]] gpu::DescriptorSet bind() const;
   void download_band(uint32_t first_row, uint32_t rows, Frame& frame);
   double look(const TraceParams& params);
   std::optional<double> render_band(const TraceParams& params, uint32_t first_row, uint32_t rows,
@@ -99,7 +99,7 @@ class VulkanTracer {
   gpu::Buffer params_;
   ImageBuffers image_;
   gpu::Buffer unused_;
-  gpu::BoundBuffers bound_;
+  gpu::DescriptorSet bound_;
   double upload_ms_ = 0.0;
   SubmitBudget budget_;
 };

@@ -16,8 +16,8 @@ std::string shader_head(const BakedScene& scene, const KernelChoice& choice, boo
   define("SOLVER", choice.solver);
   define("AOVS", choice.writes_aovs() ? 1 : 0);
   define("COUNTS", choice.counts ? 1 : 0);
-  define("GROUPS", has_groups(scene) ? 1 : 0);
-  define("KINKS", has_kinks(scene) ? 1 : 0);
+  define("DIVIDED", has_divided_patches(scene) ? 1 : 0);
+  define("NONSMOOTH", has_nonsmooth(scene) ? 1 : 0);
   define("SHADOWS", shadows ? 1 : 0);
   return head;
 }

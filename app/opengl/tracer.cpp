@@ -63,7 +63,7 @@ Tracer::Tracer(const BakedScene& scene, uint32_t width, uint32_t height, const K
       buffer_limit_(std::min(buffer_limit, storage_limit())),
       band_rows_(band_rows(path, buffer_limit_, width, height, choice.writes_aovs())),
       triangles_(triangle_bytes(device_name(), buffer_limit_, scene), "triangles"),
-      cages_(cage_bytes(device_name(), buffer_limit_, scene), "cages"),
+      subpatches_(subpatch_bytes(device_name(), buffer_limit_, scene), "cages"),
       params_(sizeof(TraceParams), "trace parameters"),
       push_(sizeof(TilePush), "push constants"),
       queued_(sizeof(QueueState), "number of paused rays"),
@@ -76,7 +76,7 @@ Tracer::Tracer(const BakedScene& scene, uint32_t width, uint32_t height, const K
       shadow_program_(shadow_program_for(scene, choice)) {
   const Stopwatch watch;
   triangles_.write(std::as_bytes(std::span(scene.triangles)));
-  if (!scene.cages.empty()) cages_.write(std::as_bytes(std::span(scene.cages)));
+  if (!scene.subpatches.empty()) subpatches_.write(std::as_bytes(std::span(scene.subpatches)));
   upload_ms_ = watch.milliseconds();
   if (path == GlPath::compute) {
     const std::size_t pixels = std::size_t{width} * band_rows_;
@@ -92,7 +92,7 @@ Tracer::Tracer(const BakedScene& scene, uint32_t width, uint32_t height, const K
 void Tracer::bind() const {
   params_.bind(GL_UNIFORM_BUFFER, BINDING_PARAMS);
   triangles_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_TRIANGLES);
-  cages_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_CAGES);
+  subpatches_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_SUBPATCHES);
   push_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_PUSH);
   paused_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_QUEUE);
   queued_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_QUEUED);
@@ -160,7 +160,7 @@ std::optional<double> Tracer::compute_band(const Program& program, uint32_t firs
   for (uint32_t group = groups.begin; group < groups.end;) {
     const uint32_t count = std::min({budget_.groups(), groups.end - group, groups.most()});
     const Stopwatch watch;
-    walk_all(
+    run_until_finished(
         RayQueue::kSteps, groups.most() * kGroupRays,
         [&](const QueuePush& queue) -> std::optional<uint32_t> {
           const uint32_t submitted =
@@ -195,7 +195,7 @@ std::optional<double> Tracer::draw_band(const TraceParams& params, uint32_t firs
     glScissor(0, static_cast<GLint>(row), static_cast<GLsizei>(width_),
               static_cast<GLsizei>(count));
     const Stopwatch watch;
-    walk_all(RayQueue::kSteps, 0, [&](const QueuePush& queue) -> std::optional<uint32_t> {
+    run_until_finished(RayQueue::kSteps, 0, [&](const QueuePush& queue) -> std::optional<uint32_t> {
       return submit({queue, lowest, first_row}, [] { glDrawArrays(GL_TRIANGLE_STRIP, 0, 4); });
     });
     const double ms = watch.milliseconds();

@@ -52,7 +52,7 @@ class Tracer {
   std::size_t buffer_limit_;
   uint32_t band_rows_;
   Buffer triangles_;
-  Buffer cages_;
+  Buffer subpatches_;
   Buffer params_;
   Buffer push_;
   Buffer queued_;

@@ -87,8 +87,9 @@ void BoxTree::meet(const dvec3& origin, const dvec3& direction, double t_min, do
   found.clear();
   if (nodes_.empty()) return;
   const Box& all = nodes_[0].box;
-  const double reach = std::max({glm::length(origin), glm::length(all.lo), glm::length(all.hi)});
-  if (std::isfinite(reach)) margin += 1e-14 * reach;
+  const double magnitude =
+      std::max({glm::length(origin), glm::length(all.lo), glm::length(all.hi)});
+  if (std::isfinite(magnitude)) margin += 1e-14 * magnitude;
   // A median split of 2^32 boxes is 32 deep; one sibling waits at each level.
   std::array<uint32_t, 64> waiting{};
   std::size_t count = 0;

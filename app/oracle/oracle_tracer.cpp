@@ -61,13 +61,13 @@ Frame frame_of(const OracleFrame& answers, const BakedScene& scene, const TraceP
 OracleAnswer oracle_shadow(const Oracle& oracle, const BakedScene& scene, const TraceParams& params,
                            uint32_t triangle, const dvec3& weights, const dvec3& view) {
   const in_double::Shape shape = shape_of(scene.choice);
-  const in_double::Triangle tri = widen(scene.triangles[triangle]);
+  const in_double::Triangle tri = to_double(scene.triangles[triangle]);
   const dvec3 light = glm::normalize(dvec3(params.light));
   const dvec3 normal = in_double::facing(in_double::geometric_normal(shape, tri, weights), view);
   if (glm::dot(normal, light) <= 0.0) {
     return {true, true, {0.0, triangle, weights, normal}};
   }
-  const OracleRay ray{in_double::departure(shape, tri, weights, normal), light};
+  const OracleRay ray{in_double::shadow_ray_origin(shape, tri, weights, normal), light};
   return oracle.first(ray, kMotion * static_cast<double>(params.anchor.w));
 }
 

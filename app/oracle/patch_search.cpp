@@ -112,7 +112,7 @@ PatchSearch::PatchSearch(const SurfaceChoice& choice, const Triangle& tri, int l
     : choice_(choice),
       patch_(patch_of(choice.shell, tri)),
       shape_(shape_of(choice)),
-      tri_(widen(tri)),
+      tri_(to_double(tri)),
       defined_(true),
       quadratic_tangents_(choice.surface == SURFACE_FLAT ||
                           (choice.surface == SURFACE_PHONG && choice.shell == SHELL_NORMAL)) {
@@ -190,10 +190,10 @@ PatchSearch::Tangents PatchSearch::tangents_of(const Part& part) const {
   tangents.proven = quadratic_tangents_;
   std::tie(tangents.S_u, tangents.radius_u) = ball_of_quadratic(S_u);
   std::tie(tangents.S_v, tangents.radius_v) = ball_of_quadratic(S_v);
-  const double widen = tangents.proven ? 1.0 : 1.5;
+  const double to_double = tangents.proven ? 1.0 : 1.5;
   const double slack = kTangentRounding * (glm::length(tangents.S_u) + glm::length(tangents.S_v));
-  tangents.radius_u = tangents.radius_u * widen + slack;
-  tangents.radius_v = tangents.radius_v * widen + slack;
+  tangents.radius_u = tangents.radius_u * to_double + slack;
+  tangents.radius_v = tangents.radius_v * to_double + slack;
   return tangents;
 }
 

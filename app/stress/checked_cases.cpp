@@ -21,7 +21,7 @@ namespace {
 using glm::dvec3;
 
 BakedScene robust_scene(const Mesh& mesh) {
-  return bake_with_cages(mesh, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
+  return bake_with_subpatches(mesh, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
 }
 
 // The pixel's ray, rounded to single precision as the kernel's is.
@@ -38,7 +38,7 @@ bool all_finite(const vec4& color, const PixelAovs& aovs) {
 
 // Renders and judges every pixel by the oracle. The depth of an image counts from the eye, and is
 // held to the eye's distance where that is more than the radius.
-CheckedOutcome judged_image(const HardBackend& backend, const BakedScene& scene,
+CheckedOutcome judged_image(const StressBackend& backend, const BakedScene& scene,
                             const TraceSettings& settings) {
   const TraceParams params = make_params(scene, settings);
   const Frame frame = backend.render(scene, params, {SOLVER_ROBUST, true, true});
@@ -73,17 +73,17 @@ TraceSettings framed(const Mesh& mesh, const BakedScene& scene, uint32_t width, 
   return settings;
 }
 
-CheckedOutcome image_of_sphere(const HardBackend& backend, uint32_t width, uint32_t height,
+CheckedOutcome image_of_sphere(const StressBackend& backend, uint32_t width, uint32_t height,
                                double fov) {
-  const Mesh mesh = hard::sphere();
+  const Mesh mesh = stress::sphere();
   const BakedScene scene = robust_scene(mesh);
   return judged_image(backend, scene, framed(mesh, scene, width, height, fov));
 }
 
 // The eye is so near the surface that some of it is nearer than the near plane.
-CheckedOutcome clipped_by_near_plane(const HardBackend& backend) {
-  const BakedScene scene = robust_scene(hard::sphere());
-  const hard::SurfacePoint point = hard::point_at(scene, 0, dvec3(1.0 / 3.0));
+CheckedOutcome clipped_by_near_plane(const StressBackend& backend) {
+  const BakedScene scene = robust_scene(stress::sphere());
+  const stress::SurfacePoint point = stress::point_at(scene, 0, dvec3(1.0 / 3.0));
   TraceSettings settings;
   settings.width = 40;
   settings.height = 30;
@@ -94,8 +94,8 @@ CheckedOutcome clipped_by_near_plane(const HardBackend& backend) {
 }
 
 // The whole image is one patch.
-CheckedOutcome filled_by_one_patch(const HardBackend& backend) {
-  const Mesh mesh = hard::leaning_patch(30.0);
+CheckedOutcome filled_by_one_patch(const StressBackend& backend) {
+  const Mesh mesh = stress::leaning_patch(30.0);
   const BakedScene scene = robust_scene(mesh);
   TraceSettings settings;
   settings.width = 40;
@@ -107,10 +107,10 @@ CheckedOutcome filled_by_one_patch(const HardBackend& backend) {
 }
 
 // Too large an image to judge by the oracle: no NaN, and the model where a small image has it.
-CheckedOutcome large_image(const HardBackend& backend) {
+CheckedOutcome large_image(const StressBackend& backend) {
   constexpr uint32_t width = 8192;
   constexpr uint32_t height = 128;
-  const Mesh mesh = hard::sphere();
+  const Mesh mesh = stress::sphere();
   const BakedScene scene = robust_scene(mesh);
   const TraceSettings settings = framed(mesh, scene, width, height, 45.0);
   const Frame frame = backend.render(scene, make_params(scene, settings), {SOLVER_ROBUST});
@@ -155,33 +155,33 @@ CheckedOutcome expect_refusal(const std::string& text) {
 }
 
 // The file is read, and its model is met like any other.
-CheckedOutcome expect_met(const HardBackend& backend, const std::string& text) {
+CheckedOutcome expect_met(const StressBackend& backend, const std::string& text) {
   const Mesh mesh = build_mesh(parse_obj(text, "hard.obj"), "hard.obj").mesh;
   const BakedScene scene = robust_scene(mesh);
   TraceSettings settings = framed(mesh, scene, 8, 8, 45.0);
   std::mt19937_64 random(7);
-  const std::vector<CastRay> rays = hard::rays_at_surface(scene, random, 200);
+  const std::vector<CastRay> rays = stress::rays_at_surface(scene, random, 200);
   const std::vector<CastHit> hits =
       backend.cast(scene, make_params(scene, settings), SOLVER_ROBUST, rays);
   return judge(rays, hits, oracle_answers(Oracle(scene), rays, scene.radius), scene.radius);
 }
 
-CheckedOutcome one_triangle(const HardBackend& backend) {
+CheckedOutcome one_triangle(const StressBackend& backend) {
   return expect_met(backend, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
 }
 
 // A level plain of n by n squares, met from above: the depth is known.
-CheckedOutcome many_triangles(const HardBackend& backend) {
+CheckedOutcome many_triangles(const StressBackend& backend) {
   constexpr int n = 500;  // a storage buffer of 128 MiB holds 591
-  const Mesh mesh = hard::height_grid(n, 0.0, 0.0);
+  const Mesh mesh = stress::height_grid(n, 0.0, 0.0);
   const BakedScene scene = robust_scene(mesh);
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> unit(-0.9, 0.9);
   std::vector<CastRay> rays;
   rays.reserve(64);
   for (int i = 0; i < 64; ++i) {
-    rays.push_back(hard::ray_exactly_through(scene, {unit(random), unit(random), 0.0},
-                                             {0.3 * unit(random), 0.3 * unit(random), -1.0}));
+    rays.push_back(stress::ray_exactly_through(scene, {unit(random), unit(random), 0.0},
+                                               {0.3 * unit(random), 0.3 * unit(random), -1.0}));
   }
   const TraceSettings settings = framed(mesh, scene, 8, 8, 45.0);
   const std::vector<CastHit> hits =
@@ -202,29 +202,29 @@ CheckedOutcome many_triangles(const HardBackend& backend) {
 
 void add_images(std::vector<CheckedCase>& cases) {
   const auto add = [&](const char* name, const char* what,
-                       std::function<CheckedOutcome(const HardBackend&)> run) {
-    cases.push_back({name, what, HardKind::image, std::move(run)});
+                       std::function<CheckedOutcome(const StressBackend&)> run) {
+    cases.push_back({name, what, StressKind::image, std::move(run)});
   };
   add("one-patch-fills-image", "every pixel sees one patch", filled_by_one_patch);
   add("fov-1", "field of view of 1 degree",
-      [](const HardBackend& backend) { return image_of_sphere(backend, 40, 30, 1.0); });
+      [](const StressBackend& backend) { return image_of_sphere(backend, 40, 30, 1.0); });
   add("fov-170", "field of view of 170 degrees",
-      [](const HardBackend& backend) { return image_of_sphere(backend, 40, 30, 170.0); });
+      [](const StressBackend& backend) { return image_of_sphere(backend, 40, 30, 170.0); });
   add("near-plane", "the near plane cuts the surface", clipped_by_near_plane);
   add("image-1x1", "one pixel",
-      [](const HardBackend& backend) { return image_of_sphere(backend, 1, 1, 45.0); });
+      [](const StressBackend& backend) { return image_of_sphere(backend, 1, 1, 45.0); });
   add("image-1x4096", "one column",
-      [](const HardBackend& backend) { return image_of_sphere(backend, 1, 4096, 45.0); });
+      [](const StressBackend& backend) { return image_of_sphere(backend, 1, 4096, 45.0); });
   add("image-8192x8192", "67 million pixels", large_image);
 }
 
 void add_data(std::vector<CheckedCase>& cases) {
   const auto refused = [&](const char* name, const char* what, const std::string& text) {
-    cases.push_back({name, what, HardKind::data,
-                     [text](const HardBackend& /*backend*/) { return expect_refusal(text); }});
+    cases.push_back({name, what, StressKind::data,
+                     [text](const StressBackend& /*backend*/) { return expect_refusal(text); }});
   };
   const auto met = [&](const char* name, const char* what, const std::string& normals) {
-    cases.push_back({name, what, HardKind::data, [normals](const HardBackend& backend) {
+    cases.push_back({name, what, StressKind::data, [normals](const StressBackend& backend) {
                        return expect_met(backend, with_normals(normals));
                      }});
   };
@@ -239,13 +239,13 @@ void add_data(std::vector<CheckedCase>& cases) {
       "vn 1e200 1e200 1e200\nvn -1e-200 -1e-200 1e-200\nvn -5 5 -5\nvn 1e-3 -1e-3 -1e-3\n");
   refused("nan-position", "a position that is no number", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   refused("infinite-position", "an infinite position", "v -inf 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  cases.push_back({"one-triangle", "a model of one triangle", HardKind::data, one_triangle});
-  cases.push_back({"million-triangles", "very many triangles", HardKind::data, many_triangles});
+  cases.push_back({"one-triangle", "a model of one triangle", StressKind::data, one_triangle});
+  cases.push_back({"million-triangles", "very many triangles", StressKind::data, many_triangles});
 }
 
 }  // namespace
 
-std::vector<CheckedCase> hard_checked_cases() {
+std::vector<CheckedCase> stress_checked_cases() {
   std::vector<CheckedCase> cases;
   add_images(cases);
   add_data(cases);

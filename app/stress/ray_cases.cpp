@@ -14,21 +14,21 @@ using Rays = std::vector<CastRay>;
 using RayMaker = std::function<Rays(const BakedScene&, std::mt19937_64&)>;
 
 RayCase on_sphere(std::string name, std::string what, RayMaker rays) {
-  RayCase hard;
-  hard.name = std::move(name);
-  hard.what = std::move(what);
-  hard.kind = HardKind::ray;
-  hard.mesh = [] { return hard::sphere(); };
-  hard.rays = std::move(rays);
-  hard.closed = true;
-  return hard;
+  RayCase stress;
+  stress.name = std::move(name);
+  stress.what = std::move(what);
+  stress.kind = StressKind::ray;
+  stress.mesh = [] { return stress::sphere(); };
+  stress.rays = std::move(rays);
+  stress.closed = true;
+  return stress;
 }
 
 RayCase on_patch(std::string name, std::string what, std::function<Mesh()> mesh, RayMaker rays) {
-  RayCase hard = on_sphere(std::move(name), std::move(what), std::move(rays));
-  hard.mesh = std::move(mesh);
-  hard.closed = false;
-  return hard;
+  RayCase stress = on_sphere(std::move(name), std::move(what), std::move(rays));
+  stress.mesh = std::move(mesh);
+  stress.closed = false;
+  return stress;
 }
 
 // Into the solid at a vertex, from within a cone about the inward direction.
@@ -38,8 +38,8 @@ Rays through_vertices(const BakedScene& scene, std::mt19937_64& random) {
     for (const vec4& position : tri.Position) {
       const dvec3 vertex(position);
       for (int i = 0; i < 4; ++i) {
-        const dvec3 inward = -glm::normalize(vertex) + 0.7 * hard::any_direction(random);
-        rays.push_back(hard::ray_exactly_through(scene, vertex, inward));
+        const dvec3 inward = -glm::normalize(vertex) + 0.7 * stress::any_direction(random);
+        rays.push_back(stress::ray_exactly_through(scene, vertex, inward));
       }
     }
   }
@@ -53,10 +53,10 @@ Rays through_edges(const BakedScene& scene, std::mt19937_64& random) {
   for (int i = 0; i < 300; ++i) {
     const double along = unit(random);
     const auto triangle = static_cast<uint32_t>(random() % scene.triangles.size());
-    const auto point = hard::point_at(scene, triangle, {0.0, along, 1.0 - along});
-    const dvec3 inward = -glm::normalize(point.position) + 0.7 * hard::any_direction(random);
-    rays.push_back(i % 2 == 0 ? hard::ray_through(scene, point.position, inward)
-                              : hard::ray_exactly_through(scene, point.position, inward));
+    const auto point = stress::point_at(scene, triangle, {0.0, along, 1.0 - along});
+    const dvec3 inward = -glm::normalize(point.position) + 0.7 * stress::any_direction(random);
+    rays.push_back(i % 2 == 0 ? stress::ray_through(scene, point.position, inward)
+                              : stress::ray_exactly_through(scene, point.position, inward));
   }
   return rays;
 }
@@ -67,13 +67,13 @@ Rays along_edges(const BakedScene& scene, std::mt19937_64& /*random*/) {
     for (int i = 0; i < 3; ++i) {
       const dvec3 a(tri.Position[i]);
       const dvec3 b(tri.Position[(i + 1) % 3]);
-      rays.push_back(hard::ray_exactly_through(scene, a, b - a));
+      rays.push_back(stress::ray_exactly_through(scene, a, b - a));
       // Along the curved edge's middle, as the chord of it is.
-      const auto middle = hard::point_at(
+      const auto middle = stress::point_at(
           scene,
           static_cast<uint32_t>(rays.size() / 6) % static_cast<uint32_t>(scene.triangles.size()),
           {0.5, 0.5, 0.0});
-      rays.push_back(hard::ray_exactly_through(scene, middle.position, b - a));
+      rays.push_back(stress::ray_exactly_through(scene, middle.position, b - a));
     }
   }
   return rays;
@@ -82,11 +82,11 @@ Rays along_edges(const BakedScene& scene, std::mt19937_64& /*random*/) {
 // Rays in the plane of a flat triangle that lies between two that stand on its edges.
 Mesh gutter() {
   const dvec3 up(0, 0, 1);
-  const Mesh floor = hard::plain_patch({up, up, up});
+  const Mesh floor = stress::plain_patch({up, up, up});
   const dvec3 side(1, 0, 0);
   const Mesh wall =
-      hard::patch({dvec3(2, -2, -1), dvec3(2, 2, -1), dvec3(2, 0, 2)}, {side, side, side});
-  return hard::joined(floor, wall, dvec3(0.0));
+      stress::patch({dvec3(2, -2, -1), dvec3(2, 2, -1), dvec3(2, 0, 2)}, {side, side, side});
+  return stress::joined(floor, wall, dvec3(0.0));
 }
 
 Rays in_plane(const BakedScene& scene, std::mt19937_64& random) {
@@ -96,7 +96,8 @@ Rays in_plane(const BakedScene& scene, std::mt19937_64& random) {
   for (int i = 0; i < 100; ++i) {
     const dvec3 target = a + dvec3(unit(random), 0.3 * unit(random), 0.0);
     const double turn = 0.5 * unit(random);
-    rays.push_back(hard::ray_exactly_through(scene, target, {std::cos(turn), std::sin(turn), 0.0}));
+    rays.push_back(
+        stress::ray_exactly_through(scene, target, {std::cos(turn), std::sin(turn), 0.0}));
   }
   return rays;
 }
@@ -104,7 +105,7 @@ Rays in_plane(const BakedScene& scene, std::mt19937_64& random) {
 // Parallel to the base at a part of the height of the surface's top.
 Rays at_height(const BakedScene& scene, std::mt19937_64& random, double low, double high) {
   std::uniform_real_distribution<double> part(low, high);
-  const auto middle = hard::point_at(scene, 0, dvec3(1.0 / 3.0));
+  const auto middle = stress::point_at(scene, 0, dvec3(1.0 / 3.0));
   const dvec3 base =
       (dvec3(scene.triangles[0].Position[0]) + dvec3(scene.triangles[0].Position[1]) +
        dvec3(scene.triangles[0].Position[2])) /
@@ -113,7 +114,7 @@ Rays at_height(const BakedScene& scene, std::mt19937_64& random, double low, dou
   Rays rays;
   for (int i = 0; i < 120; ++i) {
     const dvec3 through = base + (middle.position - base) * part(random);
-    rays.push_back(hard::ray_through(scene, through, hard::across(up, random)));
+    rays.push_back(stress::ray_through(scene, through, stress::across(up, random)));
   }
   return rays;
 }
@@ -123,9 +124,9 @@ Rays silhouettes(const BakedScene& scene, std::mt19937_64& random) {
   Rays rays;
   for (const double off : {0.0, 1e-6, -1e-6, 1e-5, -1e-5, 1e-4, -1e-4, 1e-2, -1e-2}) {
     for (int i = 0; i < 30; ++i) {
-      const auto point = hard::any_point(scene, random);
-      rays.push_back(hard::ray_through(scene, point.position + point.normal * off,
-                                       hard::across(point.normal, random)));
+      const auto point = stress::any_point(scene, random);
+      rays.push_back(stress::ray_through(scene, point.position + point.normal * off,
+                                         stress::across(point.normal, random)));
     }
   }
   return rays;
@@ -135,17 +136,17 @@ Rays silhouettes(const BakedScene& scene, std::mt19937_64& random) {
 Rays through_two_points(const BakedScene& scene, std::mt19937_64& random) {
   Rays rays;
   while (rays.size() < 200) {
-    const auto a = hard::any_point(scene, random);
-    const auto b = hard::any_point(scene, random);
+    const auto a = stress::any_point(scene, random);
+    const auto b = stress::any_point(scene, random);
     if (glm::distance(a.position, b.position) < 1e-3 * scene.radius) continue;
-    rays.push_back(hard::ray_through(scene, a.position, b.position - a.position));
+    rays.push_back(stress::ray_through(scene, a.position, b.position - a.position));
   }
   return rays;
 }
 
 Mesh s_shaped() {
   const dvec3 leaning(0.5, 0, 1);
-  return hard::plain_patch({leaning, -leaning, dvec3(0, 0, 1)});
+  return stress::plain_patch({leaning, -leaning, dvec3(0, 0, 1)});
 }
 
 // Almost along the S, less steep than its middle and steeper than its ends.
@@ -157,8 +158,8 @@ Rays through_three_points(const BakedScene& scene, std::mt19937_64& random) {
   for (int i = 0; i < 100; ++i) {
     const dvec3 direction(i % 2 == 0 ? 1.0 : -1.0, near(random), 0.3 + near(random));
     const dvec3 target(near(random), 0.05 + near(random), near(random));
-    rays.push_back(hard::ray_through(scene, middle + target,
-                                     {direction.x, direction.y, direction.z * direction.x}));
+    rays.push_back(stress::ray_through(scene, middle + target,
+                                       {direction.x, direction.y, direction.z * direction.x}));
   }
   return rays;
 }
@@ -167,8 +168,8 @@ Rays through_three_points(const BakedScene& scene, std::mt19937_64& random) {
 Rays from_within(const BakedScene& scene, std::mt19937_64& random) {
   Rays rays;
   for (int i = 0; i < 200; ++i) {
-    CastRay ray = hard::ray_through(scene, hard::any_point(scene, random).position,
-                                    hard::any_direction(random));
+    CastRay ray = stress::ray_through(scene, stress::any_point(scene, random).position,
+                                      stress::any_direction(random));
     std::uniform_real_distribution<float> start(-static_cast<float>(scene.radius),
                                                 static_cast<float>(scene.radius));
     ray.anchor.w = start(random);
@@ -182,9 +183,9 @@ Rays from_surface(const BakedScene& scene, std::mt19937_64& random) {
   Rays rays;
   for (const double off : {0.0, 1e-5, -1e-5, 1e-3, -1e-3}) {
     for (int i = 0; i < 60; ++i) {
-      const auto point = hard::any_point(scene, random);
-      const dvec3 direction = hard::any_direction(random);
-      CastRay ray = hard::ray_exactly_through(scene, point.position, direction);
+      const auto point = stress::any_point(scene, random);
+      const dvec3 direction = stress::any_direction(random);
+      CastRay ray = stress::ray_exactly_through(scene, point.position, direction);
       ray.anchor.w = static_cast<float>(off * scene.radius);
       rays.push_back(ray);
     }
@@ -199,7 +200,8 @@ Rays along_axes(const BakedScene& scene, std::mt19937_64& random) {
     direction[i % 3] = i % 2 == 0 ? 1.0 : -1.0;
     // Every other one has a single component of zero.
     if (i >= 150) direction[(i + 1) % 3] = 0.5;
-    rays.push_back(hard::ray_through(scene, hard::any_point(scene, random).position, direction));
+    rays.push_back(
+        stress::ray_through(scene, stress::any_point(scene, random).position, direction));
   }
   return rays;
 }
@@ -207,9 +209,9 @@ Rays along_axes(const BakedScene& scene, std::mt19937_64& random) {
 Rays far_and_grazing(const BakedScene& scene, std::mt19937_64& random) {
   Rays rays;
   for (int i = 0; i < 200; ++i) {
-    const auto point = hard::any_point(scene, random);
-    const dvec3 direction = hard::across(point.normal, random) - 1e-4 * point.normal;
-    CastRay ray = hard::ray_through(scene, point.position, direction);
+    const auto point = stress::any_point(scene, random);
+    const dvec3 direction = stress::across(point.normal, random) - 1e-4 * point.normal;
+    CastRay ray = stress::ray_through(scene, point.position, direction);
     ray.anchor.w = static_cast<float>(-1e4 * scene.radius);
     rays.push_back(ray);
   }
@@ -217,7 +219,7 @@ Rays far_and_grazing(const BakedScene& scene, std::mt19937_64& random) {
 }
 
 void add_single_patches(std::vector<RayCase>& cases) {
-  const auto bulge = [] { return hard::leaning_patch(40.0); };
+  const auto bulge = [] { return stress::leaning_patch(40.0); };
   cases.push_back(
       on_patch("in-plane-of-flat", "in the plane of a flat triangle", gutter, in_plane));
   cases.back().most_rays = 12;
@@ -234,7 +236,7 @@ void add_single_patches(std::vector<RayCase>& cases) {
   cases.back().alpha = 3.0;
   cases.push_back(on_patch(
       "through-the-walls", "in and out through the shell's side walls",
-      [] { return hard::leaning_patch(20.0); },
+      [] { return stress::leaning_patch(20.0); },
       [](const BakedScene& scene, std::mt19937_64& random) {
         return at_height(scene, random, -0.3, 0.6);
       }));
@@ -242,14 +244,14 @@ void add_single_patches(std::vector<RayCase>& cases) {
 
 }  // namespace
 
-std::vector<RayCase> hard_ray_cases() {
+std::vector<RayCase> stress_ray_cases() {
   std::vector<RayCase> cases;
   cases.push_back(
       on_sphere("through-vertex", "through a vertex, to the last bit", through_vertices));
   cases.push_back(on_sphere("through-shared-edge", "through a curved edge that two patches share",
                             through_edges));
   cases.push_back(on_sphere("along-shared-edge", "along an edge's chord", along_edges));
-  for (RayCase& hard : cases) hard.surfaces = {SURFACE_FLAT, SURFACE_PHONG, SURFACE_SPHERE};
+  for (RayCase& stress : cases) stress.surfaces = {SURFACE_FLAT, SURFACE_PHONG, SURFACE_SPHERE};
   add_single_patches(cases);
   cases.push_back(on_sphere("silhouette", "past the outline, as near as 1e-6", silhouettes));
   cases.push_back(

@@ -15,14 +15,14 @@ using glm::dvec3;
 const dvec3 kUp(0, 0, 1);
 
 RayCase shape(std::string name, std::string what, std::function<Mesh()> mesh, int count = 240) {
-  RayCase hard;
-  hard.name = std::move(name);
-  hard.what = std::move(what);
-  hard.mesh = std::move(mesh);
-  hard.rays = [count](const BakedScene& scene, std::mt19937_64& random) {
-    return hard::rays_at_surface(scene, random, count);
+  RayCase stress;
+  stress.name = std::move(name);
+  stress.what = std::move(what);
+  stress.mesh = std::move(mesh);
+  stress.rays = [count](const BakedScene& scene, std::mt19937_64& random) {
+    return stress::rays_at_surface(scene, random, count);
   };
-  return hard;
+  return stress;
 }
 
 dvec3 tilted(double degrees, const dvec3& toward) {
@@ -32,18 +32,18 @@ dvec3 tilted(double degrees, const dvec3& toward) {
 
 Mesh sliver(double aspect) {
   const double thin = 2.0 / aspect;
-  return hard::patch({dvec3(-1, 0, 0), dvec3(1, 0, 0), dvec3(0.1, thin, 0)},
-                     {tilted(30, dvec3(-1, 0, 0)), tilted(30, dvec3(1, 0, 0)), kUp});
+  return stress::patch({dvec3(-1, 0, 0), dvec3(1, 0, 0), dvec3(0.1, thin, 0)},
+                       {tilted(30, dvec3(-1, 0, 0)), tilted(30, dvec3(1, 0, 0)), kUp});
 }
 
 // Tilts from 1e-2 to 1e-8, of both signs, a patch each.
 Mesh almost_flat() {
-  Mesh mesh = hard::leaning_patch(1.0);
+  Mesh mesh = stress::leaning_patch(1.0);
   double place = 0.0;
   for (const double tilt : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8}) {
     place += 2.5;
-    mesh = hard::joined(mesh, hard::leaning_patch(tilt), dvec3(place, 0, 0));
-    mesh = hard::joined(mesh, hard::leaning_patch(-tilt), dvec3(place, 2, 0));
+    mesh = stress::joined(mesh, stress::leaning_patch(tilt), dvec3(place, 0, 0));
+    mesh = stress::joined(mesh, stress::leaning_patch(-tilt), dvec3(place, 2, 0));
   }
   return mesh;
 }
@@ -59,9 +59,9 @@ Mesh pillow_cube() {
       const dvec3 v = glm::cross(n, u);
       const std::array<dvec3, 4> corners{n - u - v, n + u - v, n + u + v, n - u + v};
       for (const auto& [b, c] : {std::pair<std::size_t, std::size_t>{1, 2}, {2, 3}}) {
-        const hard::Corners p{corners[0], corners[b], corners[c]};
-        const Mesh half = hard::patch(p, {n * 2.0 + p[0], n * 2.0 + p[1], n * 2.0 + p[2]});
-        mesh = hard::joined(mesh, half, dvec3(0.0));
+        const stress::Corners p{corners[0], corners[b], corners[c]};
+        const Mesh half = stress::patch(p, {n * 2.0 + p[0], n * 2.0 + p[1], n * 2.0 + p[2]});
+        mesh = stress::joined(mesh, half, dvec3(0.0));
       }
     }
   }
@@ -77,13 +77,13 @@ Mesh three_leaves() {
     const double angle = glm::radians(40.0 + 110.0 * leaf);
     const dvec3 out(0, std::cos(angle), std::sin(angle));
     const dvec3 n = glm::cross(b - a, out);
-    mesh = hard::joined(mesh, hard::patch({a, b, out}, {n + a, n + b, n + out}), dvec3(0.0));
+    mesh = stress::joined(mesh, stress::patch({a, b, out}, {n + a, n + b, n + out}), dvec3(0.0));
   }
   return mesh;
 }
 
 Mesh every_other_face_turned() {
-  Mesh mesh = hard::sphere();
+  Mesh mesh = stress::sphere();
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 2) {
     std::swap(mesh.triangles[t].vertex[1], mesh.triangles[t].vertex[2]);
     std::swap(mesh.triangles[t].normal[1], mesh.triangles[t].normal[2]);
@@ -93,12 +93,12 @@ Mesh every_other_face_turned() {
 
 // Twice the same patch, once turned over, and one that overlaps it in its plane.
 Mesh coincident() {
-  const Mesh once = hard::leaning_patch(25.0);
+  const Mesh once = stress::leaning_patch(25.0);
   Mesh turned = once;
   std::swap(turned.triangles[0].vertex[1], turned.triangles[0].vertex[2]);
   std::swap(turned.triangles[0].normal[1], turned.triangles[0].normal[2]);
-  const Mesh twice = hard::joined(once, once, dvec3(0.0));
-  return hard::joined(hard::joined(twice, turned, dvec3(0.0)), once, dvec3(0.4, 0.2, 0.0));
+  const Mesh twice = stress::joined(once, once, dvec3(0.0));
+  return stress::joined(stress::joined(twice, turned, dvec3(0.0)), once, dvec3(0.4, 0.2, 0.0));
 }
 
 // Faces of no area, one with two corners in one place, in a file with a tetrahedron.
@@ -117,9 +117,9 @@ std::vector<CastRay> rays_next_to_vertices(const BakedScene& scene, std::mt19937
       std::swap(weights.z, weights[i % 3]);
       weights[i % 3 == 2 ? 2 : i % 3] = 0.0;
       weights[i % 3] = 1.0 - (weights.x + weights.y + weights.z);
-      const auto point =
-          hard::point_at(scene, static_cast<uint32_t>(random() % scene.triangles.size()), weights);
-      rays.push_back(hard::ray_through(scene, point.position, hard::any_direction(random)));
+      const auto point = stress::point_at(
+          scene, static_cast<uint32_t>(random() % scene.triangles.size()), weights);
+      rays.push_back(stress::ray_through(scene, point.position, stress::any_direction(random)));
     }
   }
   return rays;
@@ -135,8 +135,8 @@ std::vector<CastRay> rays_next_to_border(const BakedScene& scene, std::mt19937_6
       const dvec3 weights = i % 3 == 0   ? w
                             : i % 3 == 1 ? dvec3(w.z, w.x, w.y)
                                          : dvec3(w.y, w.z, w.x);
-      const auto point = hard::point_at(scene, 0, weights);
-      rays.push_back(hard::ray_through(scene, point.position, hard::any_direction(random)));
+      const auto point = stress::point_at(scene, 0, weights);
+      rays.push_back(stress::ray_through(scene, point.position, stress::any_direction(random)));
     }
   }
   return rays;
@@ -144,27 +144,27 @@ std::vector<CastRay> rays_next_to_border(const BakedScene& scene, std::mt19937_6
 
 void add_normals(std::vector<RayCase>& cases) {
   cases.push_back(shape("flat-patch", "every normal is the face's", [] {
-    return hard::plain_patch({kUp, kUp, kUp});
+    return stress::plain_patch({kUp, kUp, kUp});
   }));
   cases.back().surfaces = {SURFACE_FLAT, SURFACE_PHONG, SURFACE_SPHERE};
   cases.push_back(shape("one-tilted-normal", "one normal leans by 40 degrees", [] {
-    return hard::plain_patch({kUp, tilted(40, dvec3(1, 0, 0)), kUp});
+    return stress::plain_patch({kUp, tilted(40, dvec3(1, 0, 0)), kUp});
   }));
   cases.push_back(shape("concave", "normals lean inward by 35 degrees",
-                        [] { return hard::leaning_patch(-35.0); }));
-  cases.push_back(
-      shape("saddle", "curvatures of both signs", [] { return hard::height_grid(2, 0.5, -0.5); }));
+                        [] { return stress::leaning_patch(-35.0); }));
+  cases.push_back(shape("saddle", "curvatures of both signs",
+                        [] { return stress::height_grid(2, 0.5, -0.5); }));
   cases.push_back(shape("s-shaped-edge", "an edge whose ends lean the same way", [] {
-    return hard::plain_patch({tilted(45, dvec3(1, 0, 0)), tilted(30, dvec3(1, 0, 0)), kUp});
+    return stress::plain_patch({tilted(45, dvec3(1, 0, 0)), tilted(30, dvec3(1, 0, 0)), kUp});
   }));
   cases.push_back(shape("normals-80-apart", "two normals 80 degrees apart", [] {
-    return hard::plain_patch({tilted(40, dvec3(-1, 0, 0)), tilted(40, dvec3(1, 0, 0)), kUp});
+    return stress::plain_patch({tilted(40, dvec3(-1, 0, 0)), tilted(40, dvec3(1, 0, 0)), kUp});
   }));
   cases.push_back(shape("normal-in-face", "a normal 89.9 degrees off the face's", [] {
-    return hard::plain_patch({tilted(89.9, dvec3(-1, -0.3, 0)), kUp, kUp});
+    return stress::plain_patch({tilted(89.9, dvec3(-1, -0.3, 0)), kUp, kUp});
   }));
   cases.push_back(shape("normal-behind-face", "a normal 120 degrees off the face's", [] {
-    return hard::plain_patch({tilted(120, dvec3(-1, -0.3, 0)), kUp, kUp});
+    return stress::plain_patch({tilted(120, dvec3(-1, -0.3, 0)), kUp, kUp});
   }));
 }
 
@@ -175,18 +175,18 @@ void add_forms(std::vector<RayCase>& cases) {
   cases.push_back(shape("faces-of-no-area", "coincident vertices and collinear ones in a file",
                         with_faces_of_no_area));
   cases.push_back(shape("folded-shell", "normals that cross: the prism turns over", [] {
-    return hard::plain_patch(
+    return stress::plain_patch(
         {tilted(75, dvec3(1, 0.3, 0)), tilted(75, dvec3(-1, 0.3, 0)), tilted(75, dvec3(0, -1, 0))});
   }));
   cases.push_back(shape("almost-flat", "curvatures that go to 0 from both sides", almost_flat));
   cases.push_back(
       shape("missed-sphere", "lines along the shell that pass by a vertex's small sphere", [] {
-        return hard::patch({dvec3(-1, 0, 0), dvec3(1, 0, 0), dvec3(0.9, 0.5, 0)},
-                           {tilted(80, dvec3(-1, 0.5, 0)), tilted(70, dvec3(0.2, -1, 0)),
-                            tilted(60, dvec3(-1, 1, 0))});
+        return stress::patch({dvec3(-1, 0, 0), dvec3(1, 0, 0), dvec3(0.9, 0.5, 0)},
+                             {tilted(80, dvec3(-1, 0.5, 0)), tilted(70, dvec3(0.2, -1, 0)),
+                              tilted(60, dvec3(-1, 1, 0))});
       }));
   cases.push_back(shape("next-to-a-vertex", "where the angle at the vertex is 0 over 0",
-                        [] { return hard::sphere(); }));
+                        [] { return stress::sphere(); }));
   cases.back().rays = rays_next_to_vertices;
 }
 
@@ -196,7 +196,7 @@ void add_neighbours(std::vector<RayCase>& cases) {
   cases.back().surfaces = {SURFACE_FLAT, SURFACE_PHONG, SURFACE_SPHERE};
   cases.push_back(shape("non-manifold-edge", "three patches on one edge", three_leaves));
   cases.push_back(shape("open-border", "beside a border, within and without",
-                        [] { return hard::leaning_patch(30.0); }));
+                        [] { return stress::leaning_patch(30.0); }));
   cases.back().rays = rays_next_to_border;
   cases.push_back(
       shape("mixed-winding", "every other face is turned over", every_other_face_turned));
@@ -207,7 +207,7 @@ void add_neighbours(std::vector<RayCase>& cases) {
                           : alpha == 1.0 ? "alpha-1"
                                          : "alpha-2",
                           "Phong Tessellation none, full and beyond",
-                          [] { return hard::sphere(); }));
+                          [] { return stress::sphere(); }));
     cases.back().alpha = alpha;
     cases.back().surfaces = {SURFACE_PHONG};
     cases.back().closed = true;
@@ -216,7 +216,7 @@ void add_neighbours(std::vector<RayCase>& cases) {
 
 }  // namespace
 
-std::vector<RayCase> hard_shape_cases() {
+std::vector<RayCase> stress_shape_cases() {
   std::vector<RayCase> cases;
   add_normals(cases);
   add_forms(cases);

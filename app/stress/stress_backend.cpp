@@ -13,10 +13,10 @@
 
 namespace trisect {
 
-HardBackend vulkan_hard_backend(const gpu::Device& device) {
+StressBackend vulkan_stress_backend(const gpu::Device& device) {
   using Key = std::tuple<uint, uint, uint>;
   using Kernels = std::map<Key, std::shared_ptr<const gpu::Kernel>>;
-  HardBackend backend;
+  StressBackend backend;
   backend.device = device.report().name;
   backend.driver = device.report().driver;
   backend.cast = [&device, kernels = std::make_shared<Kernels>()](
@@ -35,8 +35,8 @@ HardBackend vulkan_hard_backend(const gpu::Device& device) {
   return backend;
 }
 
-HardBackend cpu_hard_backend() {
-  HardBackend backend;
+StressBackend cpu_stress_backend() {
+  StressBackend backend;
   backend.device = fmt::format("CPU, {} threads", std::thread::hardware_concurrency());
   backend.driver = "the kernel as C++, single precision";
   backend.cast = [](const BakedScene& scene, const TraceParams& params, uint solver,

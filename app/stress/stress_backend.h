@@ -7,7 +7,7 @@
 namespace trisect {
 
 // Compiles each kernel once. The device must outlive what is returned.
-HardBackend vulkan_hard_backend(const gpu::Device& device);
-HardBackend cpu_hard_backend();
+StressBackend vulkan_stress_backend(const gpu::Device& device);
+StressBackend cpu_stress_backend();
 
 }  // namespace trisect

@@ -18,7 +18,7 @@
 namespace trisect {
 
 // Who casts rays and renders frames: a Vulkan device, or the kernel as C++.
-struct HardBackend {
+struct StressBackend {
   std::string device;
   std::string driver;
   std::function<std::vector<CastHit>(const BakedScene&, const TraceParams&, uint solver,
@@ -27,13 +27,13 @@ struct HardBackend {
   std::function<Frame(const BakedScene&, const TraceParams&, const KernelChoice&)> render;
 };
 
-enum class HardKind { shape, ray, scale, image, data };
+enum class StressKind { shape, ray, scale, image, data };
 
 // A scene and its rays; what they meet is the oracle's to say.
 struct RayCase {
   std::string name;
   std::string what;  // for the JSON: what is hard about it
-  HardKind kind = HardKind::shape;
+  StressKind kind = StressKind::shape;
   std::function<Mesh()> mesh;
   // Rays relative to the scene's origin, from a generator that is seeded the same for every row.
   std::function<std::vector<CastRay>(const BakedScene&, std::mt19937_64&)> rays;
@@ -63,17 +63,17 @@ struct CheckedOutcome {
 struct CheckedCase {
   std::string name;
   std::string what;
-  HardKind kind = HardKind::image;
-  std::function<CheckedOutcome(const HardBackend&)> run;
+  StressKind kind = StressKind::image;
+  std::function<CheckedOutcome(const StressBackend&)> run;
 };
 
-const char* kind_name(HardKind kind);
+const char* kind_name(StressKind kind);
 
-std::vector<RayCase> hard_shape_cases();
-std::vector<RayCase> hard_ray_cases();
-std::vector<RayCase> hard_scale_cases();
+std::vector<RayCase> stress_shape_cases();
+std::vector<RayCase> stress_ray_cases();
+std::vector<RayCase> stress_scale_cases();
 // Shapes, rays, scales.
-std::vector<RayCase> hard_ray_catalogue();
-std::vector<CheckedCase> hard_checked_cases();
+std::vector<RayCase> stress_ray_catalogue();
+std::vector<CheckedCase> stress_checked_cases();
 
 }  // namespace trisect

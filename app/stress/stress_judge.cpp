@@ -39,7 +39,7 @@ void judge_hit(const OracleRay& ray, const CastHit& hit, const OracleAnswer& ans
 
 // Who casts along rays that begin behind their anchors needs no help; the bisection marches from
 // its ray's origin, which therefore moves to the beginning.
-std::vector<CastHit> cast_from_start(const HardBackend& backend, const BakedScene& scene,
+std::vector<CastHit> cast_from_start(const StressBackend& backend, const BakedScene& scene,
                                      const TraceParams& params, std::span<const CastRay> rays) {
   std::vector<CastRay> moved(rays.begin(), rays.end());
   for (CastRay& ray : moved) {
@@ -62,40 +62,41 @@ struct Prepared {
   std::vector<OracleAnswer> answers;
 };
 
-Prepared prepare(const RayCase& hard, uint surface, uint shell) {
+Prepared prepare(const RayCase& stress, uint surface, uint shell) {
   Prepared prepared;
-  prepared.scene = bake_with_cages(hard.mesh(), {surface, hard.alpha, shell});
+  prepared.scene = bake_with_subpatches(stress.mesh(), {surface, stress.alpha, shell});
   TraceSettings settings;
-  settings.rank = hard.rank;
+  settings.rank = stress.rank;
   // The rays are the case's own; any camera will do that looks somewhere.
   settings.camera.eye = prepared.scene.origin + dvec3(0.0, 0.0, 3.0 * prepared.scene.radius);
   settings.camera.target = prepared.scene.origin;
   prepared.params = make_params(prepared.scene, settings);
   std::mt19937_64 random(7);
-  prepared.rays = hard.rays(prepared.scene, random);
+  prepared.rays = stress.rays(prepared.scene, random);
   std::shuffle(prepared.rays.begin(), prepared.rays.end(), random);
-  prepared.rays.resize(std::min(prepared.rays.size(), hard.most_rays));
+  prepared.rays.resize(std::min(prepared.rays.size(), stress.most_rays));
   prepared.answers = oracle_answers(Oracle(prepared.scene), prepared.rays, prepared.scene.radius);
   return prepared;
 }
 
-HardRow row_of(const RayCase& hard, const Prepared& prepared, uint solver,
-               const HardBackend& backend) {
+StressRow row_of(const RayCase& stress, const Prepared& prepared, uint solver,
+                 const StressBackend& backend) {
   const BakedScene& scene = prepared.scene;
-  HardRow row{hard.name, hard.what, hard.kind, scene.choice.surface, scene.choice.shell, solver,
-              hard.rank, {},        {}};
+  StressRow row{
+      stress.name, stress.what, stress.kind, scene.choice.surface, scene.choice.shell, solver,
+      stress.rank, {},          {}};
   const std::vector<CastHit> hits =
       solver == SOLVER_BISECT ? cast_from_start(backend, scene, prepared.params, prepared.rays)
                               : backend.cast(scene, prepared.params, solver, prepared.rays);
   row.outcome = judge(prepared.rays, hits, prepared.answers, scene.radius);
-  const bool cracks = hard.closed && cracks_seen(prepared.rays, prepared.answers) > 0;
+  const bool cracks = stress.closed && cracks_seen(prepared.rays, prepared.answers) > 0;
   row.verdict = verdict_of(row, cracks);
   return row;
 }
 
 }  // namespace
 
-OracleRay widened(const CastRay& ray) {
+OracleRay to_oracle_ray(const CastRay& ray) {
   return {dvec3(ray.anchor), glm::normalize(dvec3(ray.direction)),
           static_cast<double>(ray.anchor.w)};
 }
@@ -104,7 +105,7 @@ std::vector<OracleAnswer> oracle_answers(const Oracle& oracle, std::span<const C
                                          double radius) {
   std::vector<OracleAnswer> answers(rays.size());
   const auto answer = [&](uint32_t i) {
-    const OracleRay ray = widened(rays[i]);
+    const OracleRay ray = to_oracle_ray(rays[i]);
     answers[i] = oracle.first(ray, 1e-7 * radius);
     const double distance = answers[i].hit ? std::abs(answers[i].root.t) : 0.0;
     if (distance > radius) answers[i] = oracle.first(ray, 1e-7 * distance);
@@ -124,7 +125,7 @@ CheckedOutcome judge(std::span<const CastRay> rays, std::span<const CastHit> hit
     } else if (!answers[i].decidable) {
       ++outcome.undecidable;
     } else if (hits[i].triangle != NO_TRIANGLE) {
-      judge_hit(widened(rays[i]), hits[i], answers[i], radius, outcome);
+      judge_hit(to_oracle_ray(rays[i]), hits[i], answers[i], radius, outcome);
     } else if (answers[i].hit) {
       ++outcome.missed;
     }
@@ -137,22 +138,22 @@ std::size_t cracks_seen(std::span<const CastRay> rays, std::span<const OracleAns
   std::size_t seen = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (!answers[i].decidable || !answers[i].hit) continue;
-    if (glm::dot(widened(rays[i]).direction, answers[i].root.normal) > 0.0) ++seen;
+    if (glm::dot(to_oracle_ray(rays[i]).direction, answers[i].root.normal) > 0.0) ++seen;
   }
   return seen;
 }
 
-double HardRow::error_ulp(double quantile) const {
+double StressRow::error_ulp(double quantile) const {
   if (outcome.errors.empty()) return 0.0;
   const double last = static_cast<double>(outcome.errors.size() - 1);
   return outcome.errors[static_cast<std::size_t>(std::ceil(quantile * last))] / kUlp;
 }
 
-double HardRow::evaluations_per_ray() const {
+double StressRow::evaluations_per_ray() const {
   return outcome.rays == 0 ? 0.0 : outcome.evaluations / static_cast<double>(outcome.rays);
 }
 
-bool HardRow::binding() const {
+bool StressRow::binding() const {
   return solver == SOLVER_ROBUST && (shell == SHELL_NORMAL || surface == SURFACE_FLAT);
 }
 
@@ -164,7 +165,7 @@ bool passes(const CheckedOutcome& outcome) {
   return p99 <= 2.5e-7 && outcome.errors.back() <= 2e-6;
 }
 
-std::string verdict_of(const HardRow& row, bool cracks) {
+std::string verdict_of(const StressRow& row, bool cracks) {
   if (row.solver == SOLVER_BISECT) {
     // Its depth is measured; at Rank 10 it is no better than a thousandth.
     const CheckedOutcome& outcome = row.outcome;
@@ -174,30 +175,30 @@ std::string verdict_of(const HardRow& row, bool cracks) {
   return cracks ? "cracks" : "pass";
 }
 
-std::vector<HardRow> run_rows(const RayCase& hard, uint surface, const HardBackend& backend) {
-  std::vector<HardRow> rows;
-  const Prepared normal = prepare(hard, surface, SHELL_NORMAL);
-  rows.push_back(row_of(hard, normal, SOLVER_ROBUST, backend));
+std::vector<StressRow> run_rows(const RayCase& stress, uint surface, const StressBackend& backend) {
+  std::vector<StressRow> rows;
+  const Prepared normal = prepare(stress, surface, SHELL_NORMAL);
+  rows.push_back(row_of(stress, normal, SOLVER_ROBUST, backend));
   if (surface == SURFACE_FLAT) {
-    rows.push_back(row_of(hard, normal, SOLVER_BISECT, backend));
+    rows.push_back(row_of(stress, normal, SOLVER_BISECT, backend));
     return rows;
   }
-  const Prepared height = prepare(hard, surface, SHELL_HEIGHT);
-  rows.push_back(row_of(hard, height, SOLVER_ROBUST, backend));
-  rows.push_back(row_of(hard, height, SOLVER_BISECT, backend));
+  const Prepared height = prepare(stress, surface, SHELL_HEIGHT);
+  rows.push_back(row_of(stress, height, SOLVER_ROBUST, backend));
+  rows.push_back(row_of(stress, height, SOLVER_BISECT, backend));
   return rows;
 }
 
-HardRow run_robust_row(const RayCase& hard, uint surface, const HardBackend& backend) {
-  return row_of(hard, prepare(hard, surface, SHELL_NORMAL), SOLVER_ROBUST, backend);
+StressRow run_robust_row(const RayCase& stress, uint surface, const StressBackend& backend) {
+  return row_of(stress, prepare(stress, surface, SHELL_NORMAL), SOLVER_ROBUST, backend);
 }
 
-HardRow run_row(const CheckedCase& hard, const HardBackend& backend) {
-  HardRow row;
-  row.name = hard.name;
-  row.what = hard.what;
-  row.kind = hard.kind;
-  row.outcome = hard.run(backend);
+StressRow run_row(const CheckedCase& stress, const StressBackend& backend) {
+  StressRow row;
+  row.name = stress.name;
+  row.what = stress.what;
+  row.kind = stress.kind;
+  row.outcome = stress.run(backend);
   std::sort(row.outcome.errors.begin(), row.outcome.errors.end());
   row.verdict = verdict_of(row, false);
   return row;

@@ -11,7 +11,7 @@
 namespace trisect {
 
 // A cast ray as the oracle sees it: its floats widened, its direction of unit length.
-OracleRay widened(const CastRay& ray);
+OracleRay to_oracle_ray(const CastRay& ray);
 
 // One answer for each ray, on all cores. The motion is 1e-7 of the distance from the anchor to the
 // hit, at least of the scene's radius.
@@ -29,10 +29,10 @@ CheckedOutcome judge(std::span<const CastRay> rays, std::span<const CastHit> hit
 std::size_t cracks_seen(std::span<const CastRay> rays, std::span<const OracleAnswer> answers);
 
 // One line of the table.
-struct HardRow {
+struct StressRow {
   std::string name;
   std::string what;
-  HardKind kind = HardKind::shape;
+  StressKind kind = StressKind::shape;
   uint surface = SURFACE_PHONG;
   uint shell = SHELL_NORMAL;
   uint solver = SOLVER_ROBUST;
@@ -50,13 +50,13 @@ struct HardRow {
 // Nothing wrong, missed or NaN, and errors of at most 2.5e-7 (99 of 100) and 2e-6 (all).
 bool passes(const CheckedOutcome& outcome);
 // cracks: whether the oracle itself sees some.
-std::string verdict_of(const HardRow& row, bool cracks);
+std::string verdict_of(const StressRow& row, bool cracks);
 
 // Runs one case on one surface: robust in the normal shell, robust and bisect in the height shell
 // (for flat, where shells are the same, robust and bisect).
-std::vector<HardRow> run_rows(const RayCase& hard, uint surface, const HardBackend& backend);
+std::vector<StressRow> run_rows(const RayCase& stress, uint surface, const StressBackend& backend);
 // The first of these alone.
-HardRow run_robust_row(const RayCase& hard, uint surface, const HardBackend& backend);
-HardRow run_row(const CheckedCase& hard, const HardBackend& backend);
+StressRow run_robust_row(const RayCase& stress, uint surface, const StressBackend& backend);
+StressRow run_row(const CheckedCase& stress, const StressBackend& backend);
 
 }  // namespace trisect

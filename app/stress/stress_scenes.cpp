@@ -9,7 +9,7 @@
 #include "app/surface/surface_double.h"
 #include "app/surface/to_double.h"
 
-namespace trisect::hard {
+namespace trisect::stress {
 namespace {
 
 using glm::dvec3;
@@ -152,7 +152,7 @@ dvec3 across(const dvec3& axis, std::mt19937_64& random) {
 }
 
 SurfacePoint point_at(const BakedScene& scene, uint32_t triangle, const dvec3& weights) {
-  const in_double::Triangle tri = widen(scene.triangles.at(triangle));
+  const in_double::Triangle tri = to_double(scene.triangles.at(triangle));
   const in_double::Shape shape{scene.choice.surface, scene.choice.shell,
                                static_cast<double>(static_cast<float>(scene.choice.alpha))};
   return {triangle, weights, in_double::surface_point(shape, tri, weights),
@@ -195,4 +195,4 @@ std::vector<CastRay> rays_at_surface(const BakedScene& scene, std::mt19937_64& r
   return rays;
 }
 
-}  // namespace trisect::hard
+}  // namespace trisect::stress

@@ -10,7 +10,7 @@
 #include "app/mesh/mesh.h"
 #include "app/surface/shared.h"
 
-namespace trisect::hard {
+namespace trisect::stress {
 
 using Corners = std::array<glm::dvec3, 3>;
 
@@ -54,4 +54,4 @@ CastRay ray_exactly_through(const BakedScene& scene, const glm::dvec3& point,
 // `count` rays at points of the surface from all around; every fourth leans to graze it.
 std::vector<CastRay> rays_at_surface(const BakedScene& scene, std::mt19937_64& random, int count);
 
-}  // namespace trisect::hard
+}  // namespace trisect::stress

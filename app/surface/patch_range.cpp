@@ -130,8 +130,9 @@ Enclosure enclose_quotient(const Patch& patch, const Part& part, const PartCorne
     e.points[i] = T[i] + D[i] * L[i];
     e.points[i + 3] = (T[i] + T[j] + D[i] * L[j] + D[j] * L[i]) * 0.5;
   }
-  const double reach = widest * std::max({std::abs(L[0]), std::abs(L[1]), std::abs(L[2])});
-  e.radius = kRounding * (longest_of(T) + reach + magnitude / least * widest);
+  const double chord_displacement =
+      widest * std::max({std::abs(L[0]), std::abs(L[1]), std::abs(L[2])});
+  e.radius = kRounding * (longest_of(T) + chord_displacement + magnitude / least * widest);
   return e;
 }
 

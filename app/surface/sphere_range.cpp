@@ -171,8 +171,8 @@ bool is_within_limit(const Patch& patch, std::size_t i, const HeightQuadratic& q
 
 // Whether s_i, which the root puts into s, has no kink over a part: it is the limit all over it, or
 // nowhere, and then all of the lines meet the sphere or none.
-bool has_no_kink(const Patch& patch, std::size_t i, const HeightQuadratic& q,
-                 const std::optional<Interval>& s) {
+bool is_smooth_where_bounded(const Patch& patch, std::size_t i, const HeightQuadratic& q,
+                             const std::optional<Interval>& s) {
   if (!(q.DD.lo > 0.0)) return false;
   if (q.DN.hi < 0.0) return true;
   if (!s) return false;
@@ -218,7 +218,7 @@ bool sphere_is_smooth(const Patch& patch, const Part& part) {
   const PartCorners corners = corners_of(patch, part);
   for (std::size_t i = 0; i < 3; ++i) {
     const HeightQuadratic q = height_quadratic(patch, i, corners);
-    if (!has_no_kink(patch, i, q, root_range(q))) return false;
+    if (!is_smooth_where_bounded(patch, i, q, root_range(q))) return false;
   }
   return true;
 }

@@ -6,7 +6,7 @@ in_double::Shape shape_of(const SurfaceChoice& choice) {
   return {choice.surface, choice.shell, choice.alpha};
 }
 
-in_double::Triangle widen(const Triangle& tri) {
+in_double::Triangle to_double(const Triangle& tri) {
   in_double::Triangle wide{};
   for (int i = 0; i < 3; ++i) {
     wide.Position[i] = glm::dvec4(tri.Position[i]);

@@ -10,6 +10,6 @@ namespace trisect {
 in_double::Shape shape_of(const SurfaceChoice& choice);
 
 // Exact: no number changes.
-in_double::Triangle widen(const Triangle& tri);
+in_double::Triangle to_double(const Triangle& tri);
 
 }  // namespace trisect

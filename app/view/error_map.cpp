@@ -33,7 +33,7 @@ ErrorMap map_of(const BakedScene& scene, const TraceParams& params, const Frame&
     }
   }
   const Accuracy accuracy = accuracy_of(frame, truth, scene, params);
-  map.said = fmt::format(
+  map.summary = fmt::format(
       "{}x{}: {} wrong, {} missed of {} hits; off by {:.1e} at 99 of 100 pixels, {:.1e} at most",
       map.width, map.height, accuracy.wrong_hits, accuracy.missed, accuracy.hits,
       accuracy.off_surface.p99, accuracy.off_surface.max);

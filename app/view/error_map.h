@@ -19,7 +19,7 @@ struct ErrorMap {
   uint32_t height = 0;
   // x: how far off the surface, over the scene's radius, or ERROR_NOTHING and its like.
   std::vector<vec4> errors;
-  std::string said;  // in a line
+  std::string summary;  // in a line
 };
 
 class ErrorMeasurement {

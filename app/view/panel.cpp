@@ -190,7 +190,7 @@ std::optional<uint> shown_named(const std::string& name) {
 
 Requests build_panel(Settings& settings, const Facts& facts) {
   Requests requests;
-  if (settings.cheats) build_cheats();
+  if (settings.show_keys) build_cheats();
   if (!settings.panel) return requests;
   ImGui::SetNextWindowPos(ImVec2(10.0F, 10.0F), ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowSize(ImVec2(300.0F, 0.0F), ImGuiCond_FirstUseEver);

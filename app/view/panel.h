@@ -19,9 +19,9 @@ struct Settings {
   double frame_ms = 33.0;  // that a frame may take while something moves
   bool counts = false;     // evaluations and candidates are counted and told
   bool orbit = false;
-  bool exr = false;     // pictures are saved as EXR; as PNG without it
-  bool panel = true;    // is there
-  bool cheats = false;  // the list of keys is there
+  bool exr = false;        // pictures are saved as EXR; as PNG without it
+  bool panel = true;       // is there
+  bool show_keys = false;  // the list of keys is there
 };
 
 // What it asks for.

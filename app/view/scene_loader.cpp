@@ -17,22 +17,22 @@ namespace {
 std::variant<ViewedScene, LoadFailure> load(const SceneRequest& request,
                                             std::shared_ptr<const Mesh> mesh,
                                             const std::shared_ptr<const BakedScene>& before,
-                                            std::string said) {
+                                            std::string summary) {
   try {
     const bool is_known = mesh != nullptr;
     if (!is_known) {
       BuiltMesh built = build_mesh(read_obj(request.model), request.model, request.crease);
-      said = describe(built.report);
+      summary = describe(built.report);
       mesh = std::make_shared<const Mesh>(std::move(built.mesh));
     }
-    BakedScene scene = bake_with_cages(*mesh, request.choice);
+    BakedScene scene = bake_with_subpatches(*mesh, request.choice);
     if (request.tree) {
       std::optional<std::vector<BvhEntry>> bvh;
       if (is_known) bvh = refitted_bvh(scene, *before);
       scene.bvh = bvh ? std::move(*bvh) : build_bvh(scene);
     }
     return ViewedScene{request, std::move(mesh),
-                       std::make_shared<const BakedScene>(std::move(scene)), std::move(said)};
+                       std::make_shared<const BakedScene>(std::move(scene)), std::move(summary)};
   } catch (const std::bad_alloc&) {
     return LoadFailure{request, request.model + ": not enough memory for this model."};
   } catch (const std::exception& error) {
@@ -52,7 +52,7 @@ void SceneLoader::ask(const SceneRequest& request) {
   const bool same_mesh =
       mesh_ && mesh_request_.model == request.model && mesh_request_.crease == request.crease;
   running_ =
-      std::async(std::launch::async, load, request, same_mesh ? mesh_ : nullptr, scene_, said_);
+      std::async(std::launch::async, load, request, same_mesh ? mesh_ : nullptr, scene_, summary_);
 }
 
 std::optional<SceneLoader::Result> SceneLoader::poll() {
@@ -65,7 +65,7 @@ std::optional<SceneLoader::Result> SceneLoader::poll() {
     mesh_ = loaded->mesh;
     scene_ = loaded->scene;
     mesh_request_ = loaded->request;
-    said_ = loaded->said;
+    summary_ = loaded->summary;
   }
   if (!waiting_) return result;
   const SceneRequest next = *std::exchange(waiting_, std::nullopt);

@@ -26,7 +26,7 @@ struct ViewedScene {
   SceneRequest request;
   std::shared_ptr<const Mesh> mesh;
   std::shared_ptr<const BakedScene> scene;  // with cages
-  std::string said;                         // about the file
+  std::string summary;                      // about the file
 };
 
 // Why there is none.
@@ -47,7 +47,7 @@ class SceneLoader {
     mesh_ = scene.mesh;
     scene_ = scene.scene;
     mesh_request_ = scene.request;
-    said_ = scene.said;
+    summary_ = scene.summary;
   }
 
   // The same may be asked for again, and is read anew.
@@ -69,7 +69,7 @@ class SceneLoader {
   std::shared_ptr<const Mesh> mesh_;  // of the last model that was read
   std::shared_ptr<const BakedScene> scene_;
   SceneRequest mesh_request_;
-  std::string said_;
+  std::string summary_;
   std::future<Result> running_;
 };
 

@@ -173,7 +173,7 @@ void Viewer::take_loaded() {
   }
   scene_ = std::get<ViewedScene>(*result);
   ++scene_number_;
-  facts_.model = scene_->said;
+  facts_.model = scene_->summary;
   if (std::exchange(frames_model_, false)) {
     facts_.message.clear();
     recent_.add(scene_->request.model);

@@ -116,7 +116,7 @@ class Viewer {
   Window& window_;
   const gpu::Device& device_;
   gpu::Swapchain swapchain_;
-  gpu::ScreenPass pass_;
+  gpu::FullscreenPass pass_;
   PanelLayer layer_;
   // Of the window's size and more; and of fewer pixels, if those go by another way.
   Picture still_;

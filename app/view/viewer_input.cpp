@@ -82,7 +82,7 @@ void Viewer::press(int key, int mods) {
     if (key == GLFW_KEY_V) paste_clipboard();
     return;
   }
-  if (key == GLFW_KEY_H) settings_.cheats = !settings_.cheats;
+  if (key == GLFW_KEY_H) settings_.show_keys = !settings_.show_keys;
   if (key == GLFW_KEY_TAB) settings_.panel = !settings_.panel;
   if (key == GLFW_KEY_O) settings_.orbit = !settings_.orbit;
   if (key == GLFW_KEY_F) frame_model();
@@ -162,7 +162,7 @@ void Viewer::build_panel_and_obey() {
   PanelLayer::begin();
   facts_.save_file = next_file();
   facts_.error_progress = error_.progress();
-  facts_.error = shows_errors() ? error_map_.said : "";
+  facts_.error = shows_errors() ? error_map_.summary : "";
   if (facts_.error.empty() && !error_map_.errors.empty() && settings_.shown == SHOWN_ERROR) {
     facts_.error = "measured of another view; here is the colour";
   }

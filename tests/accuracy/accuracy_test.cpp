@@ -33,7 +33,7 @@ TraceSettings robust(const Mesh& mesh, const BakedScene& scene) {
 Measured measure(const char* asset, const SurfaceChoice& choice) {
   const Mesh mesh = test::load_asset(asset);
   Measured measured;
-  measured.scene = bake_with_cages(mesh, choice);
+  measured.scene = bake_with_subpatches(mesh, choice);
   const TraceSettings settings = robust(mesh, measured.scene);
   measured.params = make_params(measured.scene, settings);
   measured.truth = trace_with_oracle(measured.scene, measured.params, {}).value();
@@ -112,7 +112,7 @@ TEST_F(Robust, TheCpuHasTheSameBits) {
                                        {SURFACE_SPHERE, SHELL_HEIGHT}}) {
     for (const char* asset : {"sphere-20", "torus", "relief", "saddle", "cube"}) {
       const Mesh mesh = test::load_asset(asset);
-      const BakedScene scene = bake_with_cages(mesh, {surface, 0.65, shell});
+      const BakedScene scene = bake_with_subpatches(mesh, {surface, 0.65, shell});
       const TraceSettings settings = robust(mesh, scene);
       const Frame gpu = test::trace(scene, settings);
       Frame cpu;

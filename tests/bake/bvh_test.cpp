@@ -17,7 +17,7 @@ namespace {
 constexpr uint32_t kChildren = 8;
 
 BakedScene scene_of(const std::string& asset, const SurfaceChoice& choice) {
-  return bake_with_cages(test::load_asset(asset), choice);
+  return bake_with_subpatches(test::load_asset(asset), choice);
 }
 
 glm::vec3 lo_of(const BvhEntry& e) {
@@ -35,22 +35,22 @@ bool contains(const BvhEntry& e, const glm::vec3& lo, const glm::vec3& hi) {
 // What a ray goes through that every box lets in, in its order; every entry's box must contain
 // those below it.
 std::vector<uint32_t> parts_below(const std::vector<BvhEntry>& bvh, const BakedScene& scene) {
-  const std::vector<PartBox> boxes = part_boxes(scene);
+  const std::vector<SubpatchBox> boxes = subpatch_boxes(scene);
   std::vector<uint32_t> parts;
   std::size_t visited = 0;
   for (uint32_t item = 0; item != BVH_END && visited <= bvh.size(); ++visited) {
     const BvhEntry& entry = bvh.at(item);
-    if (entry.link >= BVH_PART) {
-      const uint32_t part = entry.link - BVH_PART;
+    if (entry.link >= BVH_LEAF) {
+      const uint32_t part = entry.link - BVH_LEAF;
       EXPECT_TRUE(contains(entry, boxes.at(part).lo, boxes.at(part).hi)) << part;
       parts.push_back(part);
       item = entry.next;
-    } else if (entry.link == BVH_NOTHING) {
+    } else if (entry.link == BVH_EMPTY) {
       item = entry.next;
     } else {
       for (uint32_t k = 0; k < kChildren; ++k) {
         const BvhEntry& child = bvh.at(entry.link + k);
-        if (child.link == BVH_NOTHING) continue;
+        if (child.link == BVH_EMPTY) continue;
         EXPECT_TRUE(contains(entry, lo_of(child), hi_of(child)));
       }
       item = entry.link;
@@ -64,8 +64,8 @@ void expect_all_parts_once(const std::vector<BvhEntry>& bvh, const BakedScene& s
   std::vector<uint32_t> parts = parts_below(bvh, scene);
   std::sort(parts.begin(), parts.end());
   std::vector<uint32_t> expected;
-  for (uint32_t part = 0; part < scene.cages.size(); ++part) {
-    if (scene.cages[part].skip == 0) expected.push_back(part);
+  for (uint32_t part = 0; part < scene.subpatches.size(); ++part) {
+    if (scene.subpatches[part].skip == 0) expected.push_back(part);
   }
   EXPECT_EQ(parts, expected);
 }
@@ -80,7 +80,7 @@ TEST(Bvh, HoldsEveryPartOnce) {
 
 TEST(Bvh, HoldsOnePatch) {
   BakedScene scene = scene_of("sphere-20", {SURFACE_FLAT, 0.0, SHELL_NORMAL});
-  scene.cages.resize(1);
+  scene.subpatches.resize(1);
   const std::vector<BvhEntry> bvh = build_bvh(scene);
   EXPECT_EQ(bvh.size(), kChildren);
   expect_all_parts_once(bvh, scene);
@@ -89,7 +89,7 @@ TEST(Bvh, HoldsOnePatch) {
 TEST(Bvh, HoldsPatchesThatLieInOnePlace) {
   BakedScene scene = scene_of("sphere-20", {SURFACE_PHONG, 0.65, SHELL_NORMAL});
   std::fill(scene.triangles.begin(), scene.triangles.end(), scene.triangles[0]);
-  scene.cages = bake_cages(scene);
+  scene.subpatches = bake_subpatches(scene);
   expect_all_parts_once(build_bvh(scene), scene);
 }
 
@@ -109,7 +109,7 @@ TEST(Bvh, IsRefittedToAnotherSurface) {
       glm::vec3 lo(1e30F);
       glm::vec3 hi(-1e30F);
       for (uint32_t k = 0; k < kChildren; ++k) {
-        if (tree[k].link == BVH_NOTHING) continue;
+        if (tree[k].link == BVH_EMPTY) continue;
         lo = glm::min(lo, lo_of(tree[k]));
         hi = glm::max(hi, hi_of(tree[k]));
       }
@@ -132,16 +132,17 @@ TEST(Bvh, BoxesContainTheSurface) {
                                       SurfaceChoice{SURFACE_PHONG, 0.65, SHELL_HEIGHT},
                                       SurfaceChoice{SURFACE_SPHERE, 0.0, SHELL_NORMAL}}) {
     const BakedScene scene = scene_of("saddle", choice);
-    const std::vector<PartBox> boxes = part_boxes(scene);
+    const std::vector<SubpatchBox> boxes = subpatch_boxes(scene);
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-      const Cage& cage = scene.cages[i];
-      if (cage.skip > 0) continue;
-      const in_double::Triangle tri = widen(scene.triangles[cage.triangle]);
+      const SubpatchBounds& bounds = scene.subpatches[i];
+      if (bounds.skip > 0) continue;
+      const in_double::Triangle tri = to_double(scene.triangles[bounds.triangle]);
       constexpr int n = 8;
       for (int a = 0; a <= n; ++a) {
         for (int b = 0; a + b <= n; ++b) {
           const glm::dvec3 l = glm::dvec3(n - a - b, a, b) / static_cast<double>(n);
-          const glm::dvec3 w = glm::dvec3(glm::vec3(cage.node)) + l * double{cage.node.w};
+          const glm::dvec3 w =
+              glm::dvec3(glm::vec3(bounds.sub_triangle)) + l * double{bounds.sub_triangle.w};
           const glm::vec3 p(in_double::surface_point(shape_of(choice), tri, w));
           EXPECT_TRUE(glm::all(glm::lessThanEqual(boxes[i].lo, p)) &&
                       glm::all(glm::greaterThanEqual(boxes[i].hi, p)))
@@ -160,10 +161,10 @@ TEST(Bvh, PutsChildrenInTheOrderOfOctants) {
     const glm::vec3 middle = lo_of(bvh[k]) + hi_of(bvh[k]);
     return middle.x + middle.y + middle.z;
   };
-  ASSERT_NE(bvh[0].link, BVH_NOTHING);
-  ASSERT_NE(bvh[kChildren - 1].link, BVH_NOTHING);
+  ASSERT_NE(bvh[0].link, BVH_EMPTY);
+  ASSERT_NE(bvh[kChildren - 1].link, BVH_EMPTY);
   for (uint32_t k = 1; k + 1 < kChildren; ++k) {
-    if (bvh[k].link == BVH_NOTHING) continue;
+    if (bvh[k].link == BVH_EMPTY) continue;
     EXPECT_LT(along(0), along(k));
     EXPECT_LT(along(k), along(kChildren - 1));
   }

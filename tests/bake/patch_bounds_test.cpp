@@ -16,7 +16,7 @@ using glm::dvec3;
 
 // The farthest that a point of the patch lies from the centre of its Domain, over the radius.
 double reach(const SurfaceChoice& choice, const Triangle& baked) {
-  const in_double::Triangle tri = widen(baked);
+  const in_double::Triangle tri = to_double(baked);
   double farthest = 0.0;
   for (const dvec3& w : test::weight_grid(24)) {
     const dvec3 point = in_double::surface_point(shape_of(choice), tri, w);

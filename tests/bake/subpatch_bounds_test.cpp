@@ -31,40 +31,40 @@ const Choice kChoices[] = {{"sphere-20", {SURFACE_PHONG, 0.65, SHELL_NORMAL}},
                            {"sphere-80", {SURFACE_SPHERE, 0.0, SHELL_NORMAL}}};
 
 BakedScene caged(const Choice& choice) {
-  return bake_with_cages(test::load_asset(choice.model), choice.choice);
+  return bake_with_subpatches(test::load_asset(choice.model), choice.choice);
 }
 
-dvec3 weights_in(const Cage& cage, const dvec3& l) {
-  return dvec3(cage.node) + l * static_cast<double>(cage.node.w);
+dvec3 weights_in(const SubpatchBounds& bounds, const dvec3& l) {
+  return dvec3(bounds.sub_triangle) + l * static_cast<double>(bounds.sub_triangle.w);
 }
 
 // No line within a part's cone is tangent to the enlarged part: S_u, S_v and the line keep their
 // orientation.
-TEST(Cage, LinesWithinItsConeCrossThePartOneWay) {
+TEST(SubpatchBounds, LinesWithinItsConeCrossThePartOneWay) {
   std::size_t cones = 0;
   for (const Choice& choice : kChoices) {
     const BakedScene scene = caged(choice);
-    for (const Cage& cage : scene.cages) {
-      if (cage.cone.w == NO_CONE) continue;
+    for (const SubpatchBounds& bounds : scene.subpatches) {
+      if (bounds.cone.w == NO_CONE) continue;
       ++cones;
-      const in_double::Triangle tri = widen(scene.triangles[cage.triangle]);
+      const in_double::Triangle tri = to_double(scene.triangles[bounds.triangle]);
       const in_double::Shape shape = shape_of(choice.choice);
-      const dvec3 n(cage.cone);
+      const dvec3 n(bounds.cone);
       const dvec3 x = glm::normalize(std::abs(n.x) < 0.5 ? glm::cross(n, {1.0, 0.0, 0.0})
                                                          : glm::cross(n, {0.0, 1.0, 0.0}));
       const dvec3 y = glm::cross(n, x);
-      const double cosine = cage.cone.w;
+      const double cosine = bounds.cone.w;
       const double sine = std::sqrt(1.0 - cosine * cosine);
       for (const dvec3& l : test::weight_grid(6)) {
         const dvec3 w =
-            weights_in(cage, l * (1.0 + 3.0 * CONE_MARGIN) - dvec3(double{CONE_MARGIN}));
+            weights_in(bounds, l * (1.0 + 3.0 * CONE_MARGIN) - dvec3(double{CONE_MARGIN}));
         const dvec3 normal = in_double::geometric_normal(shape, tri, w);
         const double side = glm::dot(normal, n);
         for (int k = 0; k < 16; ++k) {
           const double angle = k * std::acos(-1.0) / 8.0;
           const dvec3 d = n * cosine + (x * std::cos(angle) + y * std::sin(angle)) * sine;
           ASSERT_GT(glm::dot(normal, d) * side, 0.0)
-              << choice.model << " triangle " << cage.triangle;
+              << choice.model << " triangle " << bounds.triangle;
         }
       }
     }
@@ -82,7 +82,7 @@ dvec3 random_weights(std::mt19937_64& random) {
 
 // What is known of a part, at points of it and of its overlap: how far the surface and its tangents
 // are from the cage's, and that it lies in the ball.
-TEST(Cage, HoldsThePart) {
+TEST(SubpatchBounds, HoldsThePart) {
   std::mt19937_64 random(5);
   std::size_t kinked = 0;
   double most_of_stray = 0.0;
@@ -94,31 +94,32 @@ TEST(Cage, HoldsThePart) {
                                Choice{"teapot", {SURFACE_SPHERE, 0.0, SHELL_HEIGHT}}}) {
     const BakedScene scene = caged(choice);
     const in_double::Shape shape = shape_of(choice.choice);
-    for (std::size_t k = 0; k < scene.cages.size(); k += 3) {
-      const Cage& cage = scene.cages[k];
-      if (cage.skip > 0) continue;
-      if (cage.bend == KINKED) ++kinked;
-      const in_double::Triangle tri = widen(scene.triangles[cage.triangle]);
+    for (std::size_t k = 0; k < scene.subpatches.size(); k += 3) {
+      const SubpatchBounds& bounds = scene.subpatches[k];
+      if (bounds.skip > 0) continue;
+      if (bounds.gradient_lipschitz == NONSMOOTH) ++kinked;
+      const in_double::Triangle tri = to_double(scene.triangles[bounds.triangle]);
       const Corners corners = corners_of(tri, shape.shell);
-      const CageQuadratic q{dvec3(glm::vec3(cage.corner)), dvec3(glm::vec3(cage.edge))};
+      const DisplacementQuadratic q{dvec3(glm::vec3(bounds.corner)), dvec3(glm::vec3(bounds.edge))};
       for (int i = 0; i < 10; ++i) {
         const dvec3 l = random_weights(random);
-        const dvec3 w = weights_in(cage, l * (1.0 + 3.0 * OVERLAP) - dvec3(double{OVERLAP}));
+        const dvec3 w = weights_in(bounds, l * (1.0 + 3.0 * OVERLAP) - dvec3(double{OVERLAP}));
         const in_double::Displacement sigma =
             in_double::displacement_and_derivatives(shape, tri, w);
         const dvec3 D = in_double::shell_direction(shape.shell, tri, w);
         const double e = sigma.s - q.blossom(w, w);
-        ASSERT_LE(std::abs(e) * glm::length(D), cage.corner.w) << choice.model << " part " << k;
+        ASSERT_LE(std::abs(e) * glm::length(D), bounds.corner.w) << choice.model << " part " << k;
         const dvec3 S = in_double::surface_point(shape, tri, w);
-        ASSERT_LE(glm::distance(S, dvec3(cage.ball)), cage.ball.w) << choice.model << " part " << k;
-        if (cage.bend == KINKED) continue;
+        ASSERT_LE(glm::distance(S, dvec3(bounds.ball)), bounds.ball.w)
+            << choice.model << " part " << k;
+        if (bounds.gradient_lipschitz == NONSMOOTH) continue;
         const double off_u = sigma.u - 2.0 * q.blossom(w, {-1.0, 1.0, 0.0});
         const double off_v = sigma.v - 2.0 * q.blossom(w, {-1.0, 0.0, 1.0});
         const double off = std::max(glm::length(D * off_u + (corners.D[1] - corners.D[0]) * e),
                                     glm::length(D * off_v + (corners.D[2] - corners.D[0]) * e));
-        ASSERT_LE(off, cage.edge.w) << choice.model << " part " << k;
-        most_of_stray = std::max(most_of_stray, std::abs(e) * glm::length(D) / cage.corner.w);
-        most_of_tangent_stray = std::max(most_of_tangent_stray, off / cage.edge.w);
+        ASSERT_LE(off, bounds.edge.w) << choice.model << " part " << k;
+        most_of_stray = std::max(most_of_stray, std::abs(e) * glm::length(D) / bounds.corner.w);
+        most_of_tangent_stray = std::max(most_of_tangent_stray, off / bounds.edge.w);
       }
     }
   }
@@ -139,13 +140,14 @@ TEST(SphereRange, HoldsSigmaAndItsChanges) {
   const BakedScene scene = caged({"teapot", {SURFACE_SPHERE, 0.0, SHELL_HEIGHT}});
   const in_float::Shape single_shape{SURFACE_SPHERE, SHELL_HEIGHT, 0.0F};
   const in_double::Shape shape = shape_of(scene.choice);
-  for (const Cage& cage : scene.cages) {
-    if (cage.bend != KINKED || cage.skip > 0) continue;
-    const Triangle& single = scene.triangles[cage.triangle];
-    const in_double::Triangle tri = widen(single);
+  for (const SubpatchBounds& bounds : scene.subpatches) {
+    if (bounds.gradient_lipschitz != NONSMOOTH || bounds.skip > 0) continue;
+    const Triangle& single = scene.triangles[bounds.triangle];
+    const in_double::Triangle tri = to_double(single);
     uint path = in_float::WHOLE;
     for (int level = 0; level < 9; ++level, path = path << 2U | (random() & 3U)) {
-      const in_float::Node node = in_float::widened(in_float::node_at(cage.node, path));
+      const in_float::Node node =
+          in_float::with_overlap(in_float::node_at(bounds.sub_triangle, path));
       const auto over = in_float::sphere_node(single_shape, single, node);
       const in_float::SphereRange range = in_float::sphere_range(single_shape, single, over);
       ++nodes;
@@ -163,14 +165,14 @@ TEST(SphereRange, HoldsSigmaAndItsChanges) {
                                 Interval(range.v.x, range.v.y) * (w.z - before.z);
         constexpr double rounding = 1e-14;
         ASSERT_LE(change.lo, sigma - sigma_before + rounding)
-            << "triangle " << cage.triangle << " level " << level;
+            << "triangle " << bounds.triangle << " level " << level;
         ASSERT_GE(change.hi, sigma - sigma_before - rounding)
-            << "triangle " << cage.triangle << " level " << level;
+            << "triangle " << bounds.triangle << " level " << level;
         before = w;
         sigma_before = sigma;
       }
-      ASSERT_LE(range.s.x, lo) << "triangle " << cage.triangle << " level " << level;
-      ASSERT_GE(range.s.y, hi) << "triangle " << cage.triangle << " level " << level;
+      ASSERT_LE(range.s.x, lo) << "triangle " << bounds.triangle << " level " << level;
+      ASSERT_GE(range.s.y, hi) << "triangle " << bounds.triangle << " level " << level;
       widths += static_cast<double>(range.s.y) - range.s.x;
       seen += hi - lo;
     }
@@ -184,7 +186,7 @@ TEST(SphereRange, HoldsSigmaAndItsChanges) {
 
 // The image positions of points of the surface lie in the box and within the lines that the kernel
 // draws around their part, and not before the depth at which it begins.
-TEST(ViewPart, HoldsWhatIsSeenOfThePart) {
+TEST(ProjectedSubpatch, HoldsWhatIsSeenOfThePart) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   std::size_t points = 0;
@@ -204,16 +206,16 @@ TEST(ViewPart, HoldsWhatIsSeenOfThePart) {
       const dvec3 X(params.frame_x);
       const dvec3 Y(params.frame_y);
       const dvec3 Z(params.frame_z);
-      for (uint32_t part = 0; part < scene.cages.size(); part += 7) {
-        const Cage& cage = scene.cages[part];
-        const ViewPart seen = kernel.seen_part(part);
-        ViewPart balled = seen;
-        kernel.bound_by_ball(cage.ball, balled);
+      for (uint32_t part = 0; part < scene.subpatches.size(); part += 7) {
+        const SubpatchBounds& bounds = scene.subpatches[part];
+        const ProjectedSubpatch seen = kernel.project_subpatch(part);
+        ProjectedSubpatch balled = seen;
+        kernel.bound_by_ball(bounds.ball, balled);
         for (const dvec3& l : test::weight_grid(4)) {
-          const dvec3 S =
-              in_double::surface_point(shape_of(choice.choice),
-                                       widen(scene.triangles[cage.triangle]), weights_in(cage, l)) -
-              dvec3(params.anchor);
+          const dvec3 S = in_double::surface_point(shape_of(choice.choice),
+                                                   to_double(scene.triangles[bounds.triangle]),
+                                                   weights_in(bounds, l)) -
+                          dvec3(params.anchor);
           const double z = glm::dot(S, Z);
           EXPECT_GE(z, seen.lines_x.w);
           const double before = 1.0 + z / params.anchor.w;
@@ -222,10 +224,10 @@ TEST(ViewPart, HoldsWhatIsSeenOfThePart) {
                              glm::dot(S, Y) / before / params.frame_y.w + 240.0);
           if (std::max(std::abs(p.x), std::abs(p.y)) > 1e4) continue;
           ++points;
-          ASSERT_TRUE(kernel.may_see(seen, glm::vec2(p), glm::vec2(kernel.PIXEL_SLACK)))
+          ASSERT_TRUE(kernel.overlaps_rect(seen, glm::vec2(p), glm::vec2(kernel.PIXEL_SLACK)))
               << choice.model << " part " << part << " view " << view << " at " << p.x << ", "
               << p.y;
-          ASSERT_TRUE(kernel.may_see(balled, glm::vec2(p), glm::vec2(kernel.PIXEL_SLACK)));
+          ASSERT_TRUE(kernel.overlaps_rect(balled, glm::vec2(p), glm::vec2(kernel.PIXEL_SLACK)));
           EXPECT_GE(z, balled.lines_x.w);
           tightest = std::min(tightest, double{seen.box.z} - p.x);
         }

@@ -33,7 +33,7 @@ namespace {
 using glm::vec3;
 
 BakedScene scene_of(const char* asset, uint surface) {
-  return bake_with_cages(test::load_asset(asset), {surface, 0.65, SHELL_NORMAL});
+  return bake_with_subpatches(test::load_asset(asset), {surface, 0.65, SHELL_NORMAL});
 }
 
 // A model as `trisect render` frames it.

@@ -75,35 +75,36 @@ TEST(Layout, TriangleIsTheThesissIn192Bytes) {
                                    {"VertexData", offsetof(Triangle, VertexData)}}));
 }
 
-TEST(Layout, Cage) {
-  const Held held = bound_to(BINDING_CAGES);
-  EXPECT_EQ(held.stride, sizeof(Cage));
-  EXPECT_EQ(held.offsets, (Offsets{{"ball", offsetof(Cage, ball)},
-                                   {"node", offsetof(Cage, node)},
-                                   {"corner", offsetof(Cage, corner)},
-                                   {"edge", offsetof(Cage, edge)},
-                                   {"triangle", offsetof(Cage, triangle)},
-                                   {"cone", offsetof(Cage, cone)},
-                                   {"flat_part", offsetof(Cage, flat_part)},
-                                   {"bend", offsetof(Cage, bend)},
-                                   {"skip", offsetof(Cage, skip)}}));
+TEST(Layout, SubpatchBounds) {
+  const Held held = bound_to(BINDING_SUBPATCHES);
+  EXPECT_EQ(held.stride, sizeof(SubpatchBounds));
+  EXPECT_EQ(held.offsets,
+            (Offsets{{"ball", offsetof(SubpatchBounds, ball)},
+                     {"sub_triangle", offsetof(SubpatchBounds, sub_triangle)},
+                     {"corner", offsetof(SubpatchBounds, corner)},
+                     {"edge", offsetof(SubpatchBounds, edge)},
+                     {"triangle", offsetof(SubpatchBounds, triangle)},
+                     {"cone", offsetof(SubpatchBounds, cone)},
+                     {"is_flat", offsetof(SubpatchBounds, is_flat)},
+                     {"gradient_lipschitz", offsetof(SubpatchBounds, gradient_lipschitz)},
+                     {"skip", offsetof(SubpatchBounds, skip)}}));
 }
 
-TEST(Layout, ViewPart) {
-  const Held held = bound_to(BINDING_VIEW_PARTS, kViewPartsSpirv);
-  EXPECT_EQ(held.stride, sizeof(ViewPart));
-  EXPECT_EQ(held.offsets, (Offsets{{"box", offsetof(ViewPart, box)},
-                                   {"lines_x", offsetof(ViewPart, lines_x)},
-                                   {"lines_y", offsetof(ViewPart, lines_y)},
-                                   {"lines_at", offsetof(ViewPart, lines_at)},
-                                   {"P0", offsetof(ViewPart, P0)},
-                                   {"P1", offsetof(ViewPart, P1)},
-                                   {"P2", offsetof(ViewPart, P2)},
-                                   {"D0", offsetof(ViewPart, D0)},
-                                   {"D1", offsetof(ViewPart, D1)},
-                                   {"D2", offsetof(ViewPart, D2)},
-                                   {"cone", offsetof(ViewPart, cone)},
-                                   {"sizes", offsetof(ViewPart, sizes)}}));
+TEST(Layout, ProjectedSubpatch) {
+  const Held held = bound_to(BINDING_PROJECTED, kProjectSubpatchesSpirv);
+  EXPECT_EQ(held.stride, sizeof(ProjectedSubpatch));
+  EXPECT_EQ(held.offsets, (Offsets{{"box", offsetof(ProjectedSubpatch, box)},
+                                   {"lines_x", offsetof(ProjectedSubpatch, lines_x)},
+                                   {"lines_y", offsetof(ProjectedSubpatch, lines_y)},
+                                   {"lines_at", offsetof(ProjectedSubpatch, lines_at)},
+                                   {"P0", offsetof(ProjectedSubpatch, P0)},
+                                   {"P1", offsetof(ProjectedSubpatch, P1)},
+                                   {"P2", offsetof(ProjectedSubpatch, P2)},
+                                   {"D0", offsetof(ProjectedSubpatch, D0)},
+                                   {"D1", offsetof(ProjectedSubpatch, D1)},
+                                   {"D2", offsetof(ProjectedSubpatch, D2)},
+                                   {"cone", offsetof(ProjectedSubpatch, cone)},
+                                   {"sizes", offsetof(ProjectedSubpatch, sizes)}}));
 }
 
 TEST(Layout, BvhEntry) {
@@ -124,13 +125,13 @@ TEST(Layout, Addresses) {
   EXPECT_EQ(held.stride, sizeof(Addresses));
   EXPECT_EQ(held.offsets, (Offsets{{"triangles_low", offsetof(Addresses, triangles_low)},
                                    {"triangles_high", offsetof(Addresses, triangles_high)},
-                                   {"cages_low", offsetof(Addresses, cages_low)},
-                                   {"cages_high", offsetof(Addresses, cages_high)},
+                                   {"subpatches_low", offsetof(Addresses, subpatches_low)},
+                                   {"subpatches_high", offsetof(Addresses, subpatches_high)},
                                    {"bvh_low", offsetof(Addresses, bvh_low)},
                                    {"bvh_high", offsetof(Addresses, bvh_high)},
                                    {"boxes_low", offsetof(Addresses, boxes_low)},
                                    {"boxes_high", offsetof(Addresses, boxes_high)},
-                                   {"reach", offsetof(Addresses, reach)},
+                                   {"scene_radius", offsetof(Addresses, scene_radius)},
                                    {"padding0", offsetof(Addresses, padding0)},
                                    {"padding1", offsetof(Addresses, padding1)},
                                    {"padding2", offsetof(Addresses, padding2)}}));
@@ -156,14 +157,14 @@ TEST(Layout, TraceParams) {
                                    {"alpha", offsetof(TraceParams, alpha)},
                                    {"resolution", offsetof(TraceParams, resolution)},
                                    {"min_delta", offsetof(TraceParams, min_delta)},
-                                   {"cage_count", offsetof(TraceParams, cage_count)}}));
+                                   {"subpatch_count", offsetof(TraceParams, subpatch_count)}}));
 }
 
 TEST(Layout, BytesAreThoseOfTheStructures) {
   EXPECT_EQ(sizeof(Triangle), TRIANGLE_BYTES);
-  EXPECT_EQ(sizeof(Cage), CAGE_BYTES);
+  EXPECT_EQ(sizeof(SubpatchBounds), SUBPATCH_BYTES);
   EXPECT_EQ(sizeof(BvhEntry), BVH_ENTRY_BYTES);
-  EXPECT_EQ(sizeof(Cage::ball), BALL_BYTES);
+  EXPECT_EQ(sizeof(SubpatchBounds::ball), BALL_BYTES);
   EXPECT_EQ(sizeof(Triangle::Domain), BALL_BYTES);
 }
 
@@ -182,7 +183,7 @@ TEST(Layout, PausedRay) {
   EXPECT_EQ(held.offsets, (Offsets{
                               {"hit", offsetof(PausedRay, hit)},
                               {"triangle", offsetof(PausedRay, triangle)},
-                              {"part", offsetof(PausedRay, part)},
+                              {"subpatch", offsetof(PausedRay, subpatch)},
                               {"ray", offsetof(PausedRay, ray)},
                               {"item", offsetof(PausedRay, item)},
                               {"path", offsetof(PausedRay, path)},
@@ -238,9 +239,10 @@ TEST(Layout, ScreenPushIsTheFragmentShaders) {
 
 TEST(Layout, InterfaceIsTheKernels) {
   std::map<uint32_t, VkDescriptorType> in_kernels;
-  for (const auto& spirv : {kTraceListSpirv, kViewPartsSpirv, kBinPartsSpirv, kFillSkySpirv,
-                            kTraceTilesSpirv, kTraceUndecidedSpirv, kTracePacketsSpirv,
-                            kTraceBvhSpirv, kTracePacketsAtSpirv, kTraceBvhAtSpirv}) {
+  for (const auto& spirv :
+       {kTraceListSpirv, kProjectSubpatchesSpirv, kBinSubpatchesSpirv, kFillSkySpirv,
+        kTraceTilesSpirv, kTraceUndecidedSpirv, kTracePacketsSpirv, kTraceBvhSpirv,
+        kTracePacketsAtSpirv, kTraceBvhAtSpirv}) {
     const Compiler kernel = reflect(spirv);
     const auto held = kernel.get_shader_resources();
     for (const auto& buffer : held.uniform_buffers) {
@@ -270,8 +272,8 @@ TEST(Layout, InterfaceIsTheKernels) {
                                                         {CONSTANT_SHELL, "SHELL"},
                                                         {CONSTANT_SOLVER, "SOLVER"},
                                                         {CONSTANT_COUNTS, "COUNTS"},
-                                                        {CONSTANT_GROUPS, "GROUPS"},
-                                                        {CONSTANT_KINKS, "KINKS"},
+                                                        {CONSTANT_DIVIDED, "DIVIDED"},
+                                                        {CONSTANT_NONSMOOTH, "MAY_BE_NONSMOOTH"},
                                                         {CONSTANT_SHADOWS, "SHADOWS"}}));
 }
 

@@ -29,7 +29,7 @@ Frame trace_by_opengl(const BakedScene& scene, const TraceSettings& settings, Gl
 }
 
 BakedScene baked(const Mesh& mesh, const SurfaceChoice& choice, uint solver) {
-  return solver == SOLVER_ROBUST ? bake_with_cages(mesh, choice) : bake(mesh, choice);
+  return solver == SOLVER_ROBUST ? bake_with_subpatches(mesh, choice) : bake(mesh, choice);
 }
 
 struct Combination {

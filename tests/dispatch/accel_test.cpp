@@ -81,7 +81,7 @@ TEST_F(Acceleration, IsTheListToTheBit) {
       // With kinks, on the sphere surface.
       const bool unusual = choice.surface == SURFACE_SPHERE && name == "teapot";
       if (!usual && !unusual && name != "sphere-20" && name != "cube") continue;
-      const BakedScene scene = bake_with_cages(mesh, choice);
+      const BakedScene scene = bake_with_subpatches(mesh, choice);
       const TraceSettings settings = small(mesh, scene);
       expect_all_equal(scene, settings,
                        name + " " + std::to_string(choice.surface) + std::to_string(choice.shell));
@@ -91,7 +91,7 @@ TEST_F(Acceleration, IsTheListToTheBit) {
 
 TEST_F(Acceleration, SeesWhatIsAroundAndBehindTheEye) {
   const Mesh mesh = test::load_asset("torus");
-  const BakedScene scene = bake_with_cages(mesh, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
+  const BakedScene scene = bake_with_subpatches(mesh, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
   TraceSettings settings = small(mesh, scene);
   for (const double fov : {45.0, 170.0}) {
     settings.camera.fov = fov;
@@ -107,18 +107,18 @@ TEST_F(Acceleration, SeesWhatIsAroundAndBehindTheEye) {
 }
 
 TEST_F(Acceleration, BearsManyPartsInOneTile) {
-  const Mesh mesh = hard::sphere(4);
-  const BakedScene scene = bake_with_cages(mesh, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
+  const Mesh mesh = stress::sphere(4);
+  const BakedScene scene = bake_with_subpatches(mesh, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
   // The whole model in a few tiles.
   TraceSettings settings = test::framed(mesh, scene, 40, 24, 10);
   settings.solver = SOLVER_ROBUST;
-  ASSERT_GT(scene.cages.size(), 15U * TILE_PARTS);
+  ASSERT_GT(scene.subpatches.size(), 15U * TILE_CAPACITY);
   expect_all_equal(scene, settings, "");
 }
 
 TEST_F(Acceleration, WorksInEveryBandOfAnImage) {
   const Mesh mesh = test::load_asset("sphere-80");
-  const BakedScene scene = bake_with_cages(mesh, {SURFACE_FLAT, 0.0, SHELL_NORMAL});
+  const BakedScene scene = bake_with_subpatches(mesh, {SURFACE_FLAT, 0.0, SHELL_NORMAL});
   const TraceSettings settings = small(mesh, scene);
   // Eight rows of 59 pixels of 48 bytes: six bands.
   constexpr std::size_t limit = 26000;
@@ -127,14 +127,14 @@ TEST_F(Acceleration, WorksInEveryBandOfAnImage) {
 
 TEST_F(Acceleration, OfTheDevicesOwnIsThereOrRefused) {
   BakedScene scene =
-      bake_with_cages(test::load_asset("sphere-20"), {SURFACE_PHONG, 0.65, SHELL_NORMAL});
+      bake_with_subpatches(test::load_asset("sphere-20"), {SURFACE_PHONG, 0.65, SHELL_NORMAL});
   scene.bvh = build_bvh(scene);
   const KernelChoice choice{.solver = SOLVER_ROBUST, .accel = Accel::rayquery};
   if (test::validated_device().has_ray_query()) {
     const VulkanTracer tracer(test::validated_device(), scene, 8, 8, choice);
     // Its structure counts, beside the boxes that it is made of.
     EXPECT_GT(tracer.scene_bytes(), scene.triangles.size() * sizeof(Triangle) +
-                                        scene.cages.size() * (sizeof(Cage) + 24) +
+                                        scene.subpatches.size() * (sizeof(SubpatchBounds) + 24) +
                                         scene.bvh.size() * sizeof(BvhEntry));
   } else {
     EXPECT_THROW(VulkanTracer(test::validated_device(), scene, 8, 8, choice), gpu::Error);
@@ -144,7 +144,7 @@ TEST_F(Acceleration, OfTheDevicesOwnIsThereOrRefused) {
 // Buffers that may not be bound, here for a limit of less than the model takes.
 TEST_F(Acceleration, ReachesLargeBuffersByTheirAddresses) {
   BakedScene scene =
-      bake_with_cages(test::load_asset("teapot"), {SURFACE_PHONG, 0.65, SHELL_NORMAL});
+      bake_with_subpatches(test::load_asset("teapot"), {SURFACE_PHONG, 0.65, SHELL_NORMAL});
   scene.bvh = build_bvh(scene);
   const TraceSettings settings = small(test::load_asset("teapot"), scene);
   const std::size_t limit = scene.triangles.size() * sizeof(Triangle) - 1;

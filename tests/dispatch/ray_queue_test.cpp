@@ -27,12 +27,12 @@ std::vector<CastHit> cast(const BakedScene& scene, const TraceSettings& settings
 TEST_F(Queue, PausesLoseNothing) {
   // Patches that are divided deep (nodes are paused in), groups of cages that are skipped.
   const Mesh mesh = test::load_asset("sphere-20");
-  const BakedScene scene = bake_with_cages(mesh, {SURFACE_PHONG, 0.65, SHELL_HEIGHT});
-  ASSERT_TRUE(has_groups(scene));
+  const BakedScene scene = bake_with_subpatches(mesh, {SURFACE_PHONG, 0.65, SHELL_HEIGHT});
+  ASSERT_TRUE(has_divided_patches(scene));
   TraceSettings settings = test::framed(mesh, scene, 8, 8, 10);
   settings.solver = SOLVER_ROBUST;
   std::mt19937_64 random(5);
-  const std::vector<CastRay> rays = hard::rays_at_surface(scene, random, 500);
+  const std::vector<CastRay> rays = stress::rays_at_surface(scene, random, 500);
   const std::vector<CastHit> expected = cast(scene, settings, rays, RayQueue::kSteps);
   for (const uint32_t steps : {1U, 37U}) {
     const std::vector<CastHit> hits = cast(scene, settings, rays, steps);
@@ -43,11 +43,11 @@ TEST_F(Queue, PausesLoseNothing) {
 
 TEST_F(Queue, RaysThatGoByATreeMeetTheSame) {
   const Mesh mesh = test::load_asset("sphere-20");
-  BakedScene scene = bake_with_cages(mesh, {SURFACE_PHONG, 0.65, SHELL_HEIGHT});
+  BakedScene scene = bake_with_subpatches(mesh, {SURFACE_PHONG, 0.65, SHELL_HEIGHT});
   TraceSettings settings = test::framed(mesh, scene, 8, 8, 10);
   settings.solver = SOLVER_ROBUST;
   std::mt19937_64 random(6);
-  std::vector<CastRay> rays = hard::rays_at_surface(scene, random, 500);
+  std::vector<CastRay> rays = stress::rays_at_surface(scene, random, 500);
   // Along the axes too, whose slabs are met nowhere or everywhere.
   for (CastRay& ray : rays) {
     if (random() % 4 > 0) continue;
@@ -69,14 +69,14 @@ TEST_F(Queue, RaysThatGoByATreeMeetTheSame) {
 
 TEST_F(Queue, TheBisectionSeesEveryTriangleOnceInSeveralPasses) {
   // At rank 60 a pass takes 1015 triangles: here are two passes.
-  const Mesh mesh = hard::sphere(3);
+  const Mesh mesh = stress::sphere(3);
   const BakedScene scene = bake(mesh, {SURFACE_FLAT, 0.0});
   ASSERT_EQ(scene.triangles.size(), 1280U);
   TraceSettings settings = test::framed(mesh, scene, 8, 8, 60);
   std::vector<CastRay> rays;
   for (uint32_t t = 0; t < scene.triangles.size(); ++t) {
-    const hard::SurfacePoint middle = hard::point_at(scene, t, glm::dvec3(1.0 / 3.0));
-    rays.push_back(hard::ray_through(scene, middle.position, -middle.normal));
+    const stress::SurfacePoint middle = stress::point_at(scene, t, glm::dvec3(1.0 / 3.0));
+    rays.push_back(stress::ray_through(scene, middle.position, -middle.normal));
   }
   const std::vector<CastHit> hits = cast(scene, settings, rays, RayQueue::kSteps);
   for (uint32_t t = 0; t < hits.size(); ++t) EXPECT_EQ(hits[t].triangle, t);

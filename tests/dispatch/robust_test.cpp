@@ -16,17 +16,17 @@ namespace {
 // oracle's roots.
 void expect_first_roots(const char* asset, uint shell, uint row, uint first, uint last) {
   const Mesh mesh = test::load_asset(asset);
-  const BakedScene scene = bake_with_cages(mesh, {SURFACE_SPHERE, 0.0, shell});
+  const BakedScene scene = bake_with_subpatches(mesh, {SURFACE_SPHERE, 0.0, shell});
   const TraceSettings settings = framed_settings(mesh, scene, 800, 600);
   const TraceParams params = make_params(scene, settings);
   in_float::Kernel kernel = in_float::kernel_of(scene, params, {SOLVER_ROBUST, false, false});
   const Oracle oracle(scene);
   for (uint x = first; x <= last; ++x) {
     const in_float::Kernel::PixelRay ray = kernel.pixel_ray({x, row});
-    in_float::Walk walk = kernel.walk_begun(1 << 20);
-    kernel.go_on(ray, 0, walk);
-    ASSERT_TRUE(kernel.is_through(ray, walk));
-    const in_float::Hit hit = kernel.met_by(ray, walk);
+    in_float::Traversal traversal = kernel.begin_traversal(1 << 20);
+    kernel.resume(ray, 0, traversal);
+    ASSERT_TRUE(kernel.is_finished(ray, traversal));
+    const in_float::Hit hit = kernel.hit_of(ray, traversal);
     const OraclePixelRay asked = oracle_pixel_ray(params, x, row);
     const OracleAnswer answer = oracle.first(asked.ray, kMotion * asked.anchor_distance);
     if (!answer.decidable) continue;

@@ -84,11 +84,11 @@ TEST(BuildMesh, DropsTrianglesWithoutAreaAndKeepsSlivers) {
 
 TEST(BuildMesh, CountsHardOpenNonManifoldAndFlippedEdges) {
   // Two triangles with different normals along their common edge.
-  const BuiltMesh hard = build(
+  const BuiltMesh stress = build(
       "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvn 0 0 1\nvn 0 1 1\nf 1//1 2//1 3//1\nf 2//2 4//1 "
       "3//1\n");
-  EXPECT_EQ(hard.report.hard_edges, 1U);
-  EXPECT_EQ(hard.report.open_edges, 4U);
+  EXPECT_EQ(stress.report.hard_edges, 1U);
+  EXPECT_EQ(stress.report.open_edges, 4U);
   // Three triangles on the edge 1-2.
   const BuiltMesh fin =
       build("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\n");

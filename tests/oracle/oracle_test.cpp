@@ -154,7 +154,7 @@ TEST(Oracle, AgreesWithBruteForceOnCurvedPatches) {
                                       SurfaceChoice{SURFACE_SPHERE, 0.0, SHELL_HEIGHT}}) {
     for (int i = 0; i < 15; ++i) {
       const BakedScene scene = scene_of({test::random_patch(random, 60.0)}, choice);
-      const in_double::Triangle tri = widen(scene.triangles[0]);
+      const in_double::Triangle tri = to_double(scene.triangles[0]);
       const Oracle oracle(scene);
       for (int k = 0; k < 4; ++k) {
         const dvec3 target =
@@ -258,7 +258,7 @@ TEST(Oracle, DecidesARayThroughASharedEdgeOfTheNormalShell) {
     const SurfaceChoice choice{surface, 0.65, SHELL_NORMAL};
     const BakedScene scene = scene_of(roof(), choice);
     const Oracle oracle(scene);
-    const dvec3 on_edge = in_double::surface_point(shape_of(choice), widen(scene.triangles[0]),
+    const dvec3 on_edge = in_double::surface_point(shape_of(choice), to_double(scene.triangles[0]),
                                                    dvec3(0.375, 0.625, 0));
     const dvec3 direction = glm::normalize(dvec3(0.1, 0.05, -1));
     const OracleRay ray{on_edge - direction * 2.0, direction};
@@ -278,7 +278,7 @@ TEST(Oracle, DecidesARayThroughASharedEdgeOfTheNormalShell) {
 TEST(Oracle, CannotTellARayAtAnOpenEdge) {
   const Oracle oracle(scene_of(roof(), {SURFACE_PHONG, 0.65, SHELL_NORMAL}));
   const in_double::Triangle tri =
-      widen(scene_of(roof(), {SURFACE_PHONG, 0.65, SHELL_NORMAL}).triangles[0]);
+      to_double(scene_of(roof(), {SURFACE_PHONG, 0.65, SHELL_NORMAL}).triangles[0]);
   const dvec3 border =
       in_double::surface_point({SURFACE_PHONG, SHELL_NORMAL, 0.65}, tri, dvec3(0.375, 0, 0.625));
   const dvec3 outward = glm::normalize(dvec3(-1, -1, 0));
@@ -311,7 +311,7 @@ TEST(Oracle, FindsThreeRootsOnAnSShapedPatch) {
       {{{dvec3(-1, 0, 0), dvec3(1, 0, 0), dvec3(0, 1, 0)}, {leaning, -leaning, dvec3(0, 0, 1)}}},
       choice);
   const Oracle oracle(scene);
-  const in_double::Triangle tri = widen(scene.triangles[0]);
+  const in_double::Triangle tri = to_double(scene.triangles[0]);
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> near(-0.02, 0.02);
   int three = 0;

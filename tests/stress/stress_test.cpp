@@ -23,16 +23,18 @@ class HardCases : public test::GpuTest {};
 
 TEST_F(HardCases, NamesAreDistinct) {
   std::set<std::string> names;
-  for (const RayCase& hard : hard_ray_catalogue()) EXPECT_TRUE(names.insert(hard.name).second);
-  for (const CheckedCase& hard : hard_checked_cases()) EXPECT_TRUE(names.insert(hard.name).second);
+  for (const RayCase& stress : stress_ray_catalogue())
+    EXPECT_TRUE(names.insert(stress.name).second);
+  for (const CheckedCase& stress : stress_checked_cases())
+    EXPECT_TRUE(names.insert(stress.name).second);
   EXPECT_GE(names.size(), 42U);
 }
 
 TEST_F(HardCases, TheRobustSolverPassesThem) {
-  const HardBackend backend = vulkan_hard_backend(test::validated_device());
-  for (const RayCase& hard : hard_ray_catalogue()) {
-    for (const uint surface : hard.surfaces) {
-      const HardRow row = run_robust_row(hard, surface, backend);
+  const StressBackend backend = vulkan_stress_backend(test::validated_device());
+  for (const RayCase& stress : stress_ray_catalogue()) {
+    for (const uint surface : stress.surfaces) {
+      const StressRow row = run_robust_row(stress, surface, backend);
       EXPECT_EQ(row.verdict, "pass")
           << row.name << " on surface " << surface << ": " << row.outcome.wrong << " wrong, "
           << row.outcome.missed << " missed, " << row.outcome.nans << " NaNs, largest error "
@@ -42,9 +44,9 @@ TEST_F(HardCases, TheRobustSolverPassesThem) {
 }
 
 TEST_F(HardCases, ImagesAndFilesAreAsTheyShould) {
-  const HardBackend backend = vulkan_hard_backend(test::validated_device());
-  for (const CheckedCase& hard : hard_checked_cases()) {
-    const HardRow row = run_row(hard, backend);
+  const StressBackend backend = vulkan_stress_backend(test::validated_device());
+  for (const CheckedCase& stress : stress_checked_cases()) {
+    const StressRow row = run_row(stress, backend);
     EXPECT_EQ(row.verdict, "pass") << row.name << ": " << row.outcome.note;
   }
 }
@@ -57,15 +59,15 @@ struct Judged {
   std::vector<CastHit> hits;
 
   Judged()
-      : scene(bake_with_cages(hard::plain_patch({dvec3(0, 0, 1), dvec3(0, 0, 1), dvec3(0, 0, 1)}),
-                              {})) {
+      : scene(bake_with_subpatches(
+            stress::plain_patch({dvec3(0, 0, 1), dvec3(0, 0, 1), dvec3(0, 0, 1)}), {})) {
     for (const double x : {-0.2, 0.1, 0.2, 3.0}) {
-      rays.push_back(hard::ray_exactly_through(scene, {x, -0.2, 0.0}, {0.1, 0.2, -1.0}));
+      rays.push_back(stress::ray_exactly_through(scene, {x, -0.2, 0.0}, {0.1, 0.2, -1.0}));
     }
     answers = oracle_answers(Oracle(scene), rays, scene.radius);
     TraceSettings settings;
     settings.camera = {{0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 45.0};
-    hits = cpu_hard_backend().cast(scene, make_params(scene, settings), SOLVER_ROBUST, rays);
+    hits = cpu_stress_backend().cast(scene, make_params(scene, settings), SOLVER_ROBUST, rays);
   }
   [[nodiscard]] CheckedOutcome outcome() const { return judge(rays, hits, answers, scene.radius); }
 };
@@ -125,7 +127,7 @@ TEST(HardJudge, CountsWhatCannotBeDecided) {
 }
 
 TEST(HardJudge, AnImageOrRowOfNoRaysHasNoErrors) {
-  HardRow row;
+  StressRow row;
   EXPECT_EQ(row.error_ulp(0.99), 0.0);
   EXPECT_EQ(row.evaluations_per_ray(), 0.0);
 }

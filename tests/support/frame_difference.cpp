@@ -14,7 +14,8 @@ FrameDifference difference(const Frame& a, const Frame& b) {
   if (!result.same_size) return result;
   for (std::size_t i = 0; i < a.aovs.size(); ++i) {
     for (int k = 0; k < 3; ++k) {
-      raise(result.color, std::abs(static_cast<double>(a.colors[i][k] - b.colors[i][k])));
+      max_propagating_nan(result.color,
+                          std::abs(static_cast<double>(a.colors[i][k] - b.colors[i][k])));
     }
     const PixelAovs& p = a.aovs[i];
     const PixelAovs& q = b.aovs[i];
@@ -22,16 +23,18 @@ FrameDifference difference(const Frame& a, const Frame& b) {
     const bool hit_b = q.triangle != NO_TRIANGLE;
     if (hit_a != hit_b || a.colors[i].w != b.colors[i].w) ++result.hit_mismatches;
     if (!hit_a || !hit_b) continue;
-    raise(result.depth, std::abs(static_cast<double>(p.normal_z.w - q.normal_z.w)));
+    max_propagating_nan(result.depth, std::abs(static_cast<double>(p.normal_z.w - q.normal_z.w)));
     if (p.triangle != q.triangle) {
       ++result.patch_mismatches;
       continue;
     }
-    raise(result.normal_degrees, degrees_between(glm::dvec3(p.normal_z), glm::dvec3(q.normal_z)));
-    raise(result.normal_degrees,
-          degrees_between(glm::dvec3(p.geometric_u), glm::dvec3(q.geometric_u)));
-    raise(result.weights, std::abs(static_cast<double>(p.geometric_u.w - q.geometric_u.w)));
-    raise(result.weights, std::abs(static_cast<double>(p.v - q.v)));
+    max_propagating_nan(result.normal_degrees,
+                        degrees_between(glm::dvec3(p.normal_z), glm::dvec3(q.normal_z)));
+    max_propagating_nan(result.normal_degrees,
+                        degrees_between(glm::dvec3(p.geometric_u), glm::dvec3(q.geometric_u)));
+    max_propagating_nan(result.weights,
+                        std::abs(static_cast<double>(p.geometric_u.w - q.geometric_u.w)));
+    max_propagating_nan(result.weights, std::abs(static_cast<double>(p.v - q.v)));
   }
   return result;
 }

@@ -18,7 +18,7 @@ const gpu::Device& validated_device() {
 Frame trace(const BakedScene& baked, const TraceSettings& settings) {
   Frame frame;
   BakedScene scene = baked;
-  if (settings.solver == SOLVER_ROBUST) scene.cages = bake_cages(scene);
+  if (settings.solver == SOLVER_ROBUST) scene.subpatches = bake_subpatches(scene);
   VulkanTracer tracer(validated_device(), scene, settings.width, settings.height,
                       {settings.solver, true, true});
   tracer.render(make_params(scene, settings), frame);

@@ -31,7 +31,7 @@ class Aim {
 
   AimedRay next() {
     const Triangle& baked = scene_.triangles[random_() % scene_.triangles.size()];
-    const in_double::Triangle tri = widen(baked);
+    const in_double::Triangle tri = to_double(baked);
     const in_double::Shape shape = shape_of(scene_.choice);
     const dvec3 w = weights();
     const dvec3 point = in_double::surface_point(shape, tri, w);
@@ -85,7 +85,7 @@ class Aim {
 
 Leaks count_leaks(const std::string& asset, uint32_t surface, std::size_t count, uint64_t seed) {
   BakedScene scene =
-      bake_with_cages(without_holes(load_asset(asset)), {surface, 0.65, SHELL_NORMAL});
+      bake_with_subpatches(without_holes(load_asset(asset)), {surface, 0.65, SHELL_NORMAL});
   scene.bvh = build_bvh(scene);
   const Oracle oracle(scene);
   RayCaster caster(validated_device(), scene, make_params(scene, {}), SOLVER_ROBUST);

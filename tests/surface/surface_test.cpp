@@ -17,7 +17,7 @@ using glm::dvec4;
 // Undoes the bake's rounding of what follows from the rounded positions and normals, so that
 // identities hold to double precision.
 in_double::Triangle exact(const Triangle& single) {
-  in_double::Triangle tri = widen(single);
+  in_double::Triangle tri = to_double(single);
   const dvec3 P0(tri.Position[0]);
   const dvec3 n =
       glm::normalize(glm::cross(dvec3(tri.Position[1]) - P0, dvec3(tri.Position[2]) - P0));
@@ -83,7 +83,7 @@ TEST(Surface, FieldsAreDistancesAlongTheShell) {
 TEST(Surface, SphereIsExactOnASphere) {
   for (const char* name : {"sphere-20", "sphere-80", "sphere-320"}) {
     for (const Triangle& single : bake(test::load_asset(name), {SURFACE_SPHERE, 0.0}).triangles) {
-      const in_double::Triangle tri = widen(single);
+      const in_double::Triangle tri = to_double(single);
       for (const dvec3& w : test::weight_grid(10)) {
         const dvec3 p = in_double::surface_point({SURFACE_SPHERE, SHELL_HEIGHT, 0.0}, tri, w);
         // What the rounding of the baked curvatures and normals to single precision leaves.
@@ -153,10 +153,10 @@ TEST(Surface, NormalShellSharesItsEdges) {
     const test::RandomPatch other = test::random_patch(random, 80.0);
     for (const uint surface : {SURFACE_PHONG, SURFACE_SPHERE}) {
       const SurfaceChoice choice{surface, 0.65, SHELL_NORMAL};
-      const in_double::Triangle a = widen(bake_triangle(one.positions, one.normals, choice));
+      const in_double::Triangle a = to_double(bake_triangle(one.positions, one.normals, choice));
       const in_double::Triangle b =
-          widen(bake_triangle({one.positions[1], one.positions[0], other.positions[2]},
-                              {one.normals[1], one.normals[0], other.normals[2]}, choice));
+          to_double(bake_triangle({one.positions[1], one.positions[0], other.positions[2]},
+                                  {one.normals[1], one.normals[0], other.normals[2]}, choice));
       for (const double x : {0.1, 0.25, 0.5, 0.9}) {
         const dvec3 p = in_double::surface_point(shape_of(choice), a, {1.0 - x, x, 0.0});
         const dvec3 q = in_double::surface_point(shape_of(choice), b, {x, 1.0 - x, 0.0});

@@ -40,7 +40,7 @@ struct Lit {
 
 // The model as `trisect render` frames it, lit from the side.
 Lit lit_from_side(const Mesh& mesh, const SurfaceChoice& choice, uint32_t width, uint32_t height) {
-  Lit lit{bake_with_cages(mesh, choice), {}};
+  Lit lit{bake_with_subpatches(mesh, choice), {}};
   lit.scene.bvh = build_bvh(lit.scene);
   TraceSettings settings = test::framed(mesh, lit.scene, width, height, 10);
   settings.solver = SOLVER_ROBUST;

@@ -409,7 +409,7 @@ TEST_F(Trace, CountsTheBytesThatRaysRead) {
   // Every ray reads three corners of every triangle: more than 32 bits count.
   const BakedScene flat = bake(mesh, {SURFACE_FLAT, 0.0});
   EXPECT_EQ(bytes_of(flat, SOLVER_BISECT, Accel::list), kPixels * 320 * 3 * sizeof(vec4));
-  BakedScene curved = bake_with_cages(mesh, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
+  BakedScene curved = bake_with_subpatches(mesh, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
   curved.bvh = build_bvh(curved);
   const uint64_t list = bytes_of(curved, SOLVER_ROBUST, Accel::list);
   // Every ray reads the ball of every patch, at least, and some of them a part.

@@ -101,9 +101,9 @@ TEST_F(GpuLayer, ChecksWhatADispatchIsGiven) {
   const Device& device = test::validated_device();
   const Kernel kernel(device, kTraceListSpirv, frame_interface(), {}, "trace_list");
   const Buffer buffer(device, 1024, Memory::device, "scratch");
-  EXPECT_THROW(BoundBuffers(device, kernel, {&buffer}), std::logic_error);
-  const BoundBuffers bound(device, kernel,
-                           std::vector<const Buffer*>(frame_interface().bindings.size(), &buffer));
+  EXPECT_THROW(DescriptorSet(device, kernel, {&buffer}), std::logic_error);
+  const DescriptorSet bound(device, kernel,
+                            std::vector<const Buffer*>(frame_interface().bindings.size(), &buffer));
   Commands commands(device);
   commands.begin();
   EXPECT_THROW(commands.dispatch(kernel, bound, {}, 1), std::logic_error);
