@@ -41,7 +41,7 @@ ProjectedSubpatch project_subpatch(uint index) {
   Triangle tri = triangles[bounds.triangle];
   RayFrame frame = camera_frame(vec2(0.0));
   FramedPatch at = rotated_patch(frame, SHELL, tri);
-  Node wide = with_overlap(node_at(bounds.sub_triangle, WHOLE));
+  SubTriangle wide = with_overlap(sub_triangle_at(bounds.sub_triangle, WHOLE));
   ControlNet across = control_net(at, vec3(bounds.corner), vec3(bounds.edge), wide);
   FramedPatch deep;
   deep.P0 = vec3(at.P0.z, 0.0, 0.0);

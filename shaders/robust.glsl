@@ -98,8 +98,8 @@ SurfacePoint evaluate_surface(Shape shape, Triangle tri, SubpatchBounds bounds, 
   return at;
 }
 
-Node with_overlap(Node node) {
-  Node wide;
+SubTriangle with_overlap(SubTriangle node) {
+  SubTriangle wide;
   wide.origin = node.origin - vec3(OVERLAP * node.size);
   wide.size = (real(1.0) + real(3.0) * OVERLAP) * node.size;
   return wide;
@@ -145,7 +145,7 @@ vec3 closest_on_border(vec3 from, vec3 target, vec2 f, vec2 u, vec2 v) {
 // Newton's method from the weights l within a node. If the node is `certified` to hold one root at most,
 // PROVEN_MISS is a proof. `rough`: a root may be known no better than ROUGH_STEP. On a root: its place along the ray, and its
 // weights.
-uint newton(Shape shape, Triangle tri, SubpatchBounds bounds, FramedPatch framed, Node node, MeanJacobian mean, bool certified, bool rough,
+uint newton(Shape shape, Triangle tri, SubpatchBounds bounds, FramedPatch framed, SubTriangle node, MeanJacobian mean, bool certified, bool rough,
             real tolerance, vec3 l, OUT(real) z, OUT(vec3) weights, INOUT(uint) evaluations) {
   z = real(0.0);
   weights = weights_of(node, l);
@@ -278,7 +278,7 @@ void intersect_flat(FramedPatch framed, uint triangle, uint subpatch, real toler
 
 // The quadratic for a node. That of the cage, but for a linear part that moves it onto the surface at the node's
 // centre, to second order: what it strays from there shrinks with the node.
-Fit fit_bounds(Shape shape, Triangle tri, SubpatchBounds bounds, Node node, bool whole, INOUT(uint) evaluations) {
+Fit fit_bounds(Shape shape, Triangle tri, SubpatchBounds bounds, SubTriangle node, bool whole, INOUT(uint) evaluations) {
   Fit fit;
   fit.corner = vec3(bounds.corner);
   fit.edge = vec3(bounds.edge);
@@ -318,11 +318,11 @@ void intersect_subpatch(Shape shape, bool may_be_nonsmooth, Triangle tri, Subpat
     intersect_flat(framed, bounds.triangle, subpatch, tolerance, nearest, traversal.hit);
     return;
   }
-  Node node = node_at(bounds.sub_triangle, traversal.path);
+  SubTriangle node = sub_triangle_at(bounds.sub_triangle, traversal.path);
   do {
     uint evaluations = traversal.counts.evaluations;
     bool last = traversal.path >= SMALLEST;
-    Node wide = with_overlap(node);
+    SubTriangle wide = with_overlap(node);
     Fit fit;
     bool near = true;
     if (may_be_nonsmooth && bounds.gradient_lipschitz == NONSMOOTH) {

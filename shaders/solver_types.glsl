@@ -23,7 +23,7 @@ struct FramedPatch {
 };
 
 // A sub-triangle of a patch: w = origin + size l for weights l within it. Halving is exact.
-struct Node {
+struct SubTriangle {
   vec3 origin;
   real size;
 };

@@ -35,7 +35,7 @@ vec2 range_square(vec2 a) {
 
 vec2 range_root(vec2 a) { return sqrt(max(a, vec2(0.0))); }
 
-Corners at_corners(Node node, vec3 v0, vec3 v1, vec3 v2) {
+Corners at_corners(SubTriangle node, vec3 v0, vec3 v1, vec3 v2) {
   Corners at;
   at.a = weigh(weights_of(node, vec3(1.0, 0.0, 0.0)), v0, v1, v2);
   at.b = weigh(weights_of(node, vec3(0.0, 1.0, 0.0)), v0, v1, v2);
@@ -215,7 +215,7 @@ vec3 direction_change(Shape shape, Triangle tri, int i) {
 }
 
 // The base triangle, the directions, their squares and the weights over a node.
-struct SphereNode {
+struct SphereOverSubTriangle {
   Corners T;
   Corners D;
   vec2 DD;
@@ -223,8 +223,8 @@ struct SphereNode {
   vec3 largest_weights;
 };
 
-SphereNode sphere_node(Shape shape, Triangle tri, Node node) {
-  SphereNode over;
+SphereOverSubTriangle sphere_node(Shape shape, Triangle tri, SubTriangle node) {
+  SphereOverSubTriangle over;
   over.T = at_corners(node, vec3(tri.Position[0]), vec3(tri.Position[1]), vec3(tri.Position[2]));
   over.D = at_corners(node, corner_direction(shape.shell, tri.Normal[0], tri.NormDot.x),
                       corner_direction(shape.shell, tri.Normal[1], tri.NormDot.y),
@@ -237,7 +237,7 @@ SphereNode sphere_node(Shape shape, Triangle tri, Node node) {
 }
 
 // Of sigma and its derivatives along u and v; UNBOUNDED where nothing is known of those.
-SphereRange sphere_range(Shape shape, Triangle tri, SphereNode over) {
+SphereRange sphere_range(Shape shape, Triangle tri, SphereOverSubTriangle over) {
   vec3 Du = direction_change(shape, tri, 1);
   vec3 Dv = direction_change(shape, tri, 2);
   vec3 Tu = vec3(tri.Position[1]) - vec3(tri.Position[0]);
@@ -267,7 +267,7 @@ SphereRange sphere_range(Shape shape, Triangle tri, SphereNode over) {
 
 // Whether a node displaced by sigma comes within `reach` of the ray: it lies in the hull of its corners, each displaced
 // by the least and by the largest sigma.
-bool prism_overlaps_ray(FramedPatch framed, Node node, vec2 sigma, real tolerance) {
+bool prism_overlaps_ray(FramedPatch framed, SubTriangle node, vec2 sigma, real tolerance) {
   Corners T = at_corners(node, framed.P0, framed.P1, framed.P2);
   Corners D = at_corners(node, framed.D0, framed.D1, framed.D2);
   ControlNet net;
@@ -286,9 +286,9 @@ bool prism_overlaps_ray(FramedPatch framed, Node node, vec2 sigma, real toleranc
 
 // Whether a node of a part with a kink comes within `reach` of the ray, as far as sigma's range tells, and if it does a
 // quadratic for it: linear, with the middles of the derivatives' ranges, or constant.
-bool ranged_fit(Shape shape, Triangle tri, FramedPatch framed, Node node, real tolerance, OUT(Fit) fit,
+bool ranged_fit(Shape shape, Triangle tri, FramedPatch framed, SubTriangle node, real tolerance, OUT(Fit) fit,
                 INOUT(uint) evaluations) {
-  SphereNode over = sphere_node(shape, tri, node);
+  SphereOverSubTriangle over = sphere_node(shape, tri, node);
   SphereRange sigma = sphere_range(shape, tri, over);
   real D = longest(over.D);
   fit.corner = vec3(real(0.5) * (sigma.s.x + sigma.s.y));

@@ -8,9 +8,9 @@ real length2(vec2 a) { return sqrt(a.x * a.x + a.y * a.y); }
 real largest(vec2 a) { return max(abs(a.x), abs(a.y)); }
 
 // Weights within a node of those in the triangle, and back.
-vec3 weights_in(Node node, vec3 w) { return (w - node.origin) / node.size; }
+vec3 weights_in(SubTriangle node, vec3 w) { return (w - node.origin) / node.size; }
 
-vec3 weights_of(Node node, vec3 l) { return node.origin + l * node.size; }
+vec3 weights_of(SubTriangle node, vec3 l) { return node.origin + l * node.size; }
 
 // From a node's origin to that of its child k.
 vec3 child_shift(uint k, real half_size) {
@@ -20,18 +20,18 @@ vec3 child_shift(uint k, real half_size) {
 }
 
 // The part of the patch that a corner's child, k = 0, 1, 2, or the middle one, k = 3, covers.
-Node child(Node node, uint k) {
+SubTriangle child(SubTriangle node, uint k) {
   real half_size = real(0.5) * node.size;
-  Node subpatch;
+  SubTriangle subpatch;
   subpatch.origin = node.origin + child_shift(k, half_size);
   subpatch.size = k == 3u ? -half_size : half_size;
   return subpatch;
 }
 
 // The node whose child k this is.
-Node parent(Node subpatch, uint k) {
+SubTriangle parent(SubTriangle subpatch, uint k) {
   real half_size = k == 3u ? -subpatch.size : subpatch.size;
-  Node node;
+  SubTriangle node;
   node.origin = subpatch.origin - child_shift(k, half_size);
   node.size = real(2.0) * half_size;
   return node;
@@ -42,8 +42,8 @@ const uint WHOLE = 1u;
 const uint SMALLEST = 1u << 18;
 
 // The node of a part, origin + size l of its patch, to which a path leads.
-Node node_at(vec4 subpatch, uint path) {
-  Node node;
+SubTriangle sub_triangle_at(vec4 subpatch, uint path) {
+  SubTriangle node;
   node.origin = vec3(subpatch);
   node.size = subpatch.w;
   int level = 0;
@@ -60,7 +60,7 @@ real blossom(vec3 corner, vec3 edge, vec3 a, vec3 b) {
   return q;
 }
 
-vec3 centre_of(Node node) { return node.origin + vec3(node.size / real(3.0)); }
+vec3 centre_of(SubTriangle node) { return node.origin + vec3(node.size / real(3.0)); }
 
 // Adds the linear function that is `e` at weights c and has this gradient.
 void add_linear(INOUT(Fit) fit, vec3 c, real e, vec2 gradient) {
@@ -73,7 +73,7 @@ void add_linear(INOUT(Fit) fit, vec3 c, real e, vec2 gradient) {
 }
 
 // Control points of T + q D over a node.
-ControlNet control_net(FramedPatch framed, vec3 corner, vec3 edge, Node node) {
+ControlNet control_net(FramedPatch framed, vec3 corner, vec3 edge, SubTriangle node) {
   vec3 a = weights_of(node, vec3(1.0, 0.0, 0.0));
   vec3 b = weights_of(node, vec3(0.0, 1.0, 0.0));
   vec3 c = weights_of(node, vec3(0.0, 0.0, 1.0));

@@ -30,7 +30,7 @@ void meet(uint subpatch, PixelRay ray, bool here, inout Traversal traversal, ino
   load_by_all(subpatch, bounds, tri);
   precise FramedPatch framed = sheared_patch(ray.frame, rotated_patch(ray.frame, SHELL, tri));
   float tolerance = position_tolerance(ray.frame, tri);
-  ControlNet net = control_net(framed, bounds.corner.xyz, bounds.edge.xyz, with_overlap(node_at(bounds.sub_triangle, WHOLE)));
+  ControlNet net = control_net(framed, bounds.corner.xyz, bounds.edge.xyz, with_overlap(sub_triangle_at(bounds.sub_triangle, WHOLE)));
   here = here && hull_overlaps_ray(net, ray.frame.stretch * bounds.corner.w + tolerance);
   intersect_quickly(tri, bounds.triangle, bounds, framed, subpatch, ray, tolerance, here, traversal, undecided);
 }

@@ -146,8 +146,8 @@ TEST(SphereRange, HoldsSigmaAndItsChanges) {
     const in_double::Triangle tri = to_double(single);
     uint path = in_float::WHOLE;
     for (int level = 0; level < 9; ++level, path = path << 2U | (random() & 3U)) {
-      const in_float::Node node =
-          in_float::with_overlap(in_float::node_at(bounds.sub_triangle, path));
+      const in_float::SubTriangle node =
+          in_float::with_overlap(in_float::sub_triangle_at(bounds.sub_triangle, path));
       const auto over = in_float::sphere_node(single_shape, single, node);
       const in_float::SphereRange range = in_float::sphere_range(single_shape, single, over);
       ++nodes;
