@@ -254,6 +254,35 @@ BuiltMesh build_mesh(const ObjFile& file, const std::string& name,
   return built;
 }
 
+BuiltMesh build_mesh(std::span<const dvec3> positions, std::span<const dvec3> normals,
+                     std::span<const uint32_t> triangles, std::optional<double> crease_degrees) {
+  const auto expect = [](bool holds, const std::string& otherwise) {
+    if (!holds) throw InputError("mesh: " + otherwise + ".");
+  };
+  const auto is_finite = [](const dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+  };
+  expect(!triangles.empty(), "it has no triangles");
+  expect(triangles.size() % 3 == 0,
+         fmt::format("{} indices are not three for each triangle", triangles.size()));
+  expect(normals.empty() || normals.size() == positions.size(),
+         fmt::format("{} normals are not one for each of {} positions", normals.size(),
+                     positions.size()));
+  expect(std::all_of(positions.begin(), positions.end(), is_finite), "a position is not finite");
+  expect(std::all_of(normals.begin(), normals.end(), is_finite), "a normal is not finite");
+  ObjFile polygons;
+  polygons.positions.assign(positions.begin(), positions.end());
+  polygons.normals.assign(normals.begin(), normals.end());
+  polygons.sizes.assign(triangles.size() / 3, 3);
+  polygons.corners.reserve(triangles.size());
+  for (const uint32_t index : triangles) {
+    expect(index < positions.size(),
+           fmt::format("index {} names none of {} positions", index, positions.size()));
+    polygons.corners.push_back({index, normals.empty() ? ObjCorner::no_normal : index});
+  }
+  return build_mesh(polygons, "mesh", crease_degrees);
+}
+
 std::string describe(const MeshReport& report) {
   const char* normals = report.normals == NormalSource::file ? "from the file"
                         : report.normals == NormalSource::welded

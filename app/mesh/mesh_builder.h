@@ -1,7 +1,10 @@
 // From a file's polygons to a mesh: triangulation, normals, and a report of what was found.
 #pragma once
 
+#include <cstdint>
+#include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "app/mesh/mesh.h"
@@ -20,6 +23,14 @@ struct BuiltMesh {
 // normals are ignored, and faces whose planes differ by more than this angle do not share theirs.
 // Throws InputError, naming `name`, if no triangle is left.
 BuiltMesh build_mesh(const ObjFile& file, const std::string& name,
+                     std::optional<double> crease_degrees = std::nullopt);
+
+// The same from arrays, as other programs hold a model: triangle t has the positions
+// triangles[3 t] to triangles[3 t + 2], counter-clockwise seen from the front. normals: one for
+// each position, of any length, or none at all. Throws InputError if a number is not finite, an
+// index names no position, or the sizes do not go together.
+BuiltMesh build_mesh(std::span<const glm::dvec3> positions, std::span<const glm::dvec3> normals,
+                     std::span<const uint32_t> triangles,
                      std::optional<double> crease_degrees = std::nullopt);
 
 // One line for a person: "teapot.obj: 304 triangles, 170 vertices, normals from the file, ...".

@@ -25,4 +25,11 @@ void write_image(const Frame& frame, ImageFormat format, bool evals, const Atomi
   }
 }
 
+void save_image(const Frame& frame, const std::filesystem::path& path, bool evals) {
+  const ImageFormat format = image_format(path);
+  AtomicFile file(path);
+  write_image(frame, format, evals, file);
+  file.commit();
+}
+
 }  // namespace trisect

@@ -24,4 +24,8 @@ void write_exr(const Frame& frame, bool evals, const AtomicFile& file);
 // By one of the two. evals: as write_exr has it.
 void write_image(const Frame& frame, ImageFormat format, bool evals, const AtomicFile& file);
 
+// The same, by the file name's ending: the file appears whole or not at all. Throws UsageError or
+// InputError.
+void save_image(const Frame& frame, const std::filesystem::path& path, bool evals = false);
+
 }  // namespace trisect

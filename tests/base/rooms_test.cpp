@@ -94,6 +94,21 @@ TEST(Rooms, VulkanLayerAndShadersIncludeNothingOfTheProgram) {
   }
 }
 
+// What belongs to the program: printing, the environment, signals, the terminal.
+TEST(Rooms, LibraryIsQuiet) {
+  const std::regex loud(
+      "fmt::print|\\bf?puts\\(|printf\\(|std::c(out|err|log)|getenv|sigaction|std::signal|isatty");
+  std::istringstream names(TRISECT_LIBRARY_ROOMS);
+  std::size_t files = 0;
+  for (std::string room; names >> room;) {
+    for (const fs::path& file : sources_in("app/" + room)) {
+      ++files;
+      EXPECT_FALSE(std::regex_search(test::content_of(kSources / file), loud)) << file;
+    }
+  }
+  EXPECT_GT(files, 80U);
+}
+
 TEST(Rooms, ReadmeHasTheirOrder) {
   EXPECT_NE(test::content_of(kSources / "README.md").find("`" TRISECT_ROOMS "`"), std::string::npos)
       << "README does not have the order `" << TRISECT_ROOMS << "`";

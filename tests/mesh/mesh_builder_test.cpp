@@ -35,6 +35,47 @@ TEST(BuildMesh, ReportsAClosedCube) {
   EXPECT_EQ(built.report.flipped_edges, 0U);
 }
 
+TEST(BuildMesh, TakesArrays) {
+  const BuiltMesh file = build("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nf 1 2 3\nf 2 4 3\n");
+  const std::vector<dvec3> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}};
+  const std::vector<uint32_t> triangles{0, 1, 2, 1, 3, 2};
+  const BuiltMesh arrays = build_mesh(positions, {}, triangles);
+  EXPECT_EQ(arrays.mesh.positions, file.mesh.positions);
+  EXPECT_EQ(arrays.mesh.normals, file.mesh.normals);
+  ASSERT_EQ(arrays.mesh.triangles.size(), 2U);
+  EXPECT_EQ(arrays.mesh.triangles[1].vertex, file.mesh.triangles[1].vertex);
+  const std::vector<dvec3> up(4, dvec3(0, 0, 2));
+  const BuiltMesh with_normals = build_mesh(positions, up, triangles);
+  EXPECT_EQ(with_normals.report.normals, NormalSource::file);
+  EXPECT_EQ(with_normals.mesh.normals[with_normals.mesh.triangles[0].normal[2]], dvec3(0, 0, 1));
+}
+
+TEST(BuildMesh, RefusesArraysThatDoNotGoTogether) {
+  const std::vector<dvec3> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const std::vector<dvec3> infinite{{0, 0, 0}, {INFINITY, 0, 0}, {0, 1, 0}};
+  const std::vector<uint32_t> triangle{0, 1, 2};
+  const auto message_of = [](auto&&... arrays) -> std::string {
+    try {
+      build_mesh(arrays...);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  using Indices = std::vector<uint32_t>;
+  using Vectors = std::vector<dvec3>;
+  EXPECT_EQ(message_of(positions, Vectors{}, Indices{}), "mesh: it has no triangles.");
+  EXPECT_EQ(message_of(positions, Vectors{}, Indices{0, 1}),
+            "mesh: 2 indices are not three for each triangle.");
+  EXPECT_EQ(message_of(positions, Vectors{}, Indices{0, 1, 3}),
+            "mesh: index 3 names none of 3 positions.");
+  EXPECT_EQ(message_of(positions, Vectors{{0, 0, 1}}, triangle),
+            "mesh: 1 normals are not one for each of 3 positions.");
+  EXPECT_EQ(message_of(infinite, Vectors{}, triangle), "mesh: a position is not finite.");
+  EXPECT_EQ(message_of(positions, infinite, triangle), "mesh: a normal is not finite.");
+  EXPECT_EQ(message_of(positions, Vectors{}, Indices{0, 0, 1}), "mesh: every face has zero area.");
+}
+
 TEST(BuildMesh, WeighsNormalsByAngle) {
   // At a cube's corner three faces meet at right angles, one or two triangles each: weighted by
   // angle, and only so, each face counts the same.
