@@ -1,4 +1,4 @@
-// A rendered image in host memory.
+// A rendered image in host memory. Plain data.
 #pragma once
 
 #include <cstddef>
@@ -9,13 +9,15 @@
 
 namespace trisect {
 
-// Rows from top to bottom, pixels from left to right.
+// width times height pixels in rows from top to bottom, each row from left to right.
 struct Frame {
   uint32_t width = 0;
   uint32_t height = 0;
-  std::vector<vec4> colors;     // sRGB-encoded red, green, blue; 1 where a triangle was hit, else 0
-  std::vector<PixelAovs> aovs;  // empty if they were not asked for
-  uint64_t bytes_read = 0;      // of the scene by its rays, each its own; 0 if that is not counted
+  std::vector<vec4>
+      colors;  // red, green, blue, sRGB-encoded; w: 1 where a triangle was hit, else 0
+  std::vector<PixelAovs> aovs;  // outputs beside colour, one for each pixel; empty if not asked for
+  // Bytes of the scene that rays loaded on their way, added up over all rays; 0 if not counted.
+  uint64_t bytes_read = 0;
 
   void resize(uint32_t new_width, uint32_t new_height, bool with_aovs) {
     width = new_width;

@@ -1,4 +1,5 @@
-// A triangle mesh with a normal at every corner, in double precision.
+// A triangle mesh with a normal at every corner, in double precision and in the units of its file.
+// Plain data: nothing here is checked; build_mesh makes meshes that bake() takes.
 #pragma once
 
 #include <array>
@@ -27,17 +28,17 @@ enum class NormalSource {
   mixed,   // some corners have none in the file, or one of length zero, and got welded ones
 };
 
-// What there is to know about a mesh before it is drawn.
+// What build_mesh found in a model: counts, for a person to look at.
 struct MeshReport {
   std::size_t triangles = 0;
-  std::size_t vertices = 0;  // distinct positions in use
+  std::size_t vertices = 0;  // distinct positions that triangles use
   NormalSource normals = NormalSource::file;
-  std::size_t degenerate_dropped = 0;  // triangles of no area, left out
-  std::size_t hard_edges = 0;          // two triangles whose normals differ along the edge
-  std::size_t open_edges = 0;          // one triangle only
-  std::size_t non_manifold_edges = 0;  // three triangles or more
-  std::size_t flipped_edges = 0;       // two triangles of opposite winding
-  std::size_t normals_behind = 0;      // corners whose normal points behind the triangle's face
+  std::size_t degenerate_dropped = 0;  // triangles without area, which were left out
+  std::size_t hard_edges = 0;          // shared by two triangles whose normals differ along it
+  std::size_t open_edges = 0;          // of one triangle only
+  std::size_t non_manifold_edges = 0;  // of three triangles or more
+  std::size_t flipped_edges = 0;       // of two triangles with opposite winding
+  std::size_t normals_behind = 0;      // corners whose normal points to the back of their triangle
 };
 
 }  // namespace trisect

@@ -15,7 +15,8 @@ namespace {
 
 using glm::dvec3;
 
-// A triangle whose corners still refer to the file, with its polygon's welded positions.
+// A triangle whose corners are still indices into the file, and the welded positions of its
+// corners.
 struct Corners {
   std::array<ObjCorner, 3> corner;
   std::array<uint32_t, 3> welded;
@@ -32,7 +33,7 @@ struct PositionHash {
   }
 };
 
-// The number of each position's first occurrence among equal ones (0 and -0 are equal).
+// For each position the index of the first one that is equal to it (0 and -0 are equal).
 std::vector<uint32_t> weld(const std::vector<dvec3>& positions) {
   std::unordered_map<dvec3, uint32_t, PositionHash> first;
   first.reserve(positions.size());
@@ -45,7 +46,7 @@ std::vector<uint32_t> weld(const std::vector<dvec3>& positions) {
   return welded;
 }
 
-// Twice the triangle's area along its face normal.
+// The face normal with twice the triangle's area as its length.
 dvec3 area_vector(const std::array<dvec3, 3>& p) {
   return glm::cross(p[1] - p[0], p[2] - p[0]);
 }
@@ -55,9 +56,9 @@ std::array<dvec3, 3> points_of(const std::array<uint32_t, 3>& vertex,
   return {positions[vertex[0]], positions[vertex[1]], positions[vertex[2]]};
 }
 
-// Collinear within the rounding of the coordinates' differences: the longest edge's height over it
-// is less than a few units in its last place. Numbers whose squares overflow are not: bake refuses
-// them.
+// Whether a triangle has no area up to rounding: its height over the longest edge is less than
+// eight units in the last place of that edge. A triangle whose squared edges overflow does not
+// count: bake() refuses such a model with a message about its size.
 bool degenerate(const std::array<dvec3, 3>& p) {
   const double area = glm::length(area_vector(p));
   double longest = 0.0;
@@ -75,7 +76,7 @@ double angle_at(const std::array<dvec3, 3>& p, std::size_t i) {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-// The corners (3 * triangle + corner) around each welded vertex.
+// For each welded vertex the corners that meet there, as numbers 3 * triangle + corner.
 class VertexFans {
  public:
   VertexFans(const std::vector<Corners>& triangles, std::size_t vertices)
@@ -98,7 +99,8 @@ class VertexFans {
   std::vector<uint32_t> corners_;
 };
 
-// Angle-weighted normals, one for each corner, over the faces of its fan within the crease angle.
+// Angle-weighted normals, one for each corner: the mean over the faces around its vertex that lie
+// within the crease angle of the corner's own face.
 class WeldedNormals {
  public:
   WeldedNormals(const std::vector<Corners>& triangles, const std::vector<dvec3>& positions,
@@ -120,7 +122,7 @@ class WeldedNormals {
       if (other / 3 != triangle && glm::dot(face, faces_[triangle]) < crease_cosine_) continue;
       sum += face * angle_at(points_of(triangles_[other / 3].welded, positions_), other % 3);
     }
-    // Faces that cancel, as the two sides of a sheet do, leave the corner its own face's normal.
+    // Where the faces cancel out, as on the two sides of a sheet, the corner's own face decides.
     const double length = glm::length(sum);
     return length > 1e-9 ? sum / length : faces_[triangle];
   }
@@ -133,7 +135,7 @@ class WeldedNormals {
   std::vector<dvec3> faces_;
 };
 
-// Fills in the report's counts of edges. Edges join welded positions.
+// Counts the edges of the report. An edge is a pair of welded positions.
 void count_edges(const std::vector<Corners>& triangles, const Mesh& mesh, MeshReport& report) {
   struct Side {
     std::pair<uint32_t, uint32_t> edge;  // lower position first
@@ -157,8 +159,7 @@ void count_edges(const std::vector<Corners>& triangles, const Mesh& mesh, MeshRe
   }
   std::sort(sides.begin(), sides.end(),
             [](const Side& a, const Side& b) { return a.edge < b.edge; });
-  // Normals written with single precision differ in the last place where they are meant to be the
-  // same.
+  // Files often hold normals in single precision: equal ones may differ in the last digit.
   const auto differ = [&](uint32_t a, uint32_t b) {
     return glm::distance(mesh.normals[a], mesh.normals[b]) > 1e-6;
   };
@@ -205,10 +206,11 @@ BuiltMesh build_mesh(const ObjFile& file, const std::string& name,
   }
   if (triangles.empty()) throw InputError(name + ": every face has zero area.");
 
-  // The file's normals, unit length; those of no length are of no use.
+  // The file's normals at unit length. One of length zero cannot be used.
   std::vector<bool> usable(file.normals.size(), false);
   for (std::size_t i = 0; i < file.normals.size(); ++i) {
-    // Scaled first, so that the squares of tiny and of huge components stay in range.
+    // Scaled by the largest component first, or the squares of tiny and huge ones would leave the
+    // range of double precision.
     const dvec3 size = glm::abs(file.normals[i]);
     const double scale = std::max({size.x, size.y, size.z});
     usable[i] = scale > 0.0 && !crease_degrees;

@@ -17,11 +17,13 @@ struct BuiltMesh {
   MeshReport report;
 };
 
-// Triangulates every polygon, leaves out triangles of no area, and gives every corner a unit
-// normal: the file's, or, where it has none or one of length zero, the angle-weighted mean of the
-// faces around the welded vertex (Thuermer & Wuethrich 1998). crease_degrees: if given, the file's
-// normals are ignored, and faces whose planes differ by more than this angle do not share theirs.
-// Throws InputError, naming `name`, if no triangle is left.
+// Triangulates every polygon, leaves out triangles without area, and gives every corner a unit
+// normal: the file's, or, where the file has none or one of length zero, the mean of the face
+// normals around the vertex, weighted by the faces' angles there (Thuermer & Wuethrich 1998,
+// "Computing vertex normals from polygonal facets"); vertices at the same position count as one.
+// crease_degrees: if given, the file's normals are ignored, and a corner's mean leaves out faces
+// whose normals differ from its own face's by more than this angle. Pure and deterministic. Throws
+// InputError, with `name` in its message, if no triangle is left.
 BuiltMesh build_mesh(const ObjFile& file, const std::string& name,
                      std::optional<double> crease_degrees = std::nullopt);
 

@@ -18,7 +18,8 @@
 namespace trisect {
 namespace {
 
-// A text in memory as a stream that knows how many lines have been read from it.
+// A text in memory as a stream that counts the lines that have been read from it, so that errors
+// can name the line.
 class CountingBuffer : public std::streambuf {
  public:
   explicit CountingBuffer(std::string_view text) : text_(text) {}
@@ -43,7 +44,7 @@ class CountingBuffer : public std::streambuf {
   std::size_t lines_ = 0;
 };
 
-// Splits off the first word of a line.
+// Removes the first word from `line` and returns it; empty at the end of the line.
 std::string_view take_word(std::string_view& line) {
   constexpr std::string_view spaces = " \t\r";
   const std::size_t begin = std::min(line.find_first_not_of(spaces), line.size());
@@ -60,7 +61,7 @@ bool is_finite_number(std::string_view word) {
   return error == std::errc() && end == word.data() + word.size() && std::isfinite(value);
 }
 
-// v, v/vt, v//vn or v/vt/vn, each a whole number in range and none of them 0.
+// Whether a word is v, v/vt, v//vn or v/vt/vn with whole numbers other than 0.
 bool is_corner(std::string_view word) {
   for (int field = 0; field < 3; ++field) {
     const std::string_view number = word.substr(0, word.find('/'));
@@ -75,7 +76,8 @@ bool is_corner(std::string_view word) {
   return false;
 }
 
-// Comments as spaces: the parser knows only those that are lines of their own.
+// The text with its comments replaced by spaces: tinyobjloader takes a comment only on a line of
+// its own.
 std::string without_comments(std::string_view text) {
   std::string plain(text);
   bool comment = false;
@@ -87,8 +89,8 @@ std::string without_comments(std::string_view text) {
   return plain;
 }
 
-// tinyobjloader reads what it cannot parse as 0 and passes over a face without corners; such lines
-// are errors here.
+// Throws for the lines that tinyobjloader would accept in silence: it reads a number that it cannot
+// parse as 0 and skips a face without corners.
 void check_lines(std::string_view text, const std::string& name) {
   std::size_t number = 0;
   while (!text.empty()) {
@@ -119,7 +121,8 @@ void check_lines(std::string_view text, const std::string& name) {
   }
 }
 
-// What the parser's callbacks fill. Faces are checked against what the file has defined so far.
+// The target of the parser's callbacks. OBJ lets a face use only what stands before it in the file,
+// so every index is checked when its face arrives.
 struct Reader {
   ObjFile file;
   const CountingBuffer* source = nullptr;
@@ -129,7 +132,7 @@ struct Reader {
     throw InputError(fmt::format("{}, line {}: {}.", *name, source->lines_read(), what));
   }
 
-  // From OBJ's index, 1-based or negative from the end, to a zero-based one.
+  // Turns an OBJ index, 1-based or negative and counted from the end, into a zero-based one.
   [[nodiscard]] uint32_t resolve(int index, std::size_t count, const char* what) const {
     const long long zero_based = index > 0 ? index - 1LL : static_cast<long long>(count) + index;
     if (index == 0 || zero_based < 0 || zero_based >= static_cast<long long>(count)) {
@@ -141,7 +144,7 @@ struct Reader {
   void add_face(const tinyobj::index_t* indices, int count) {
     for (int i = 0; i < count; ++i) {
       const tinyobj::index_t& index = indices[i];
-      // The parser leaves normals that a face does not name at 0, which no valid file names.
+      // The parser reports 0 for a normal that the face does not name; 0 is no index in OBJ.
       file.corners.push_back({resolve(index.vertex_index, file.positions.size(), "vertex"),
                               index.normal_index == 0
                                   ? ObjCorner::no_normal
@@ -161,8 +164,7 @@ ObjFile parse_obj(std::string_view file_text, const std::string& name) {
 
   CountingBuffer buffer(text);
   std::istream stream(&buffer);
-  // An exception must pass through the parser unharmed: it does, as it holds no resources but its
-  // own.
+  // The callbacks may throw through the parser: it holds nothing that an exception would leak.
   Reader reader{{}, &buffer, &name};
   tinyobj::callback_t callbacks;
   callbacks.vertex_cb = [](void* user, double x, double y, double z, double /*w*/) {

@@ -7,7 +7,8 @@
 namespace trisect {
 namespace {
 
-// Twice the polygon's vector area: robust for polygons that are not quite planar (Newell's method).
+// Twice the polygon's vector area (Newell's method), which is well defined for polygons that are
+// not quite planar.
 glm::dvec3 newell_normal(std::span<const glm::dvec3> corners) {
   glm::dvec3 normal(0.0);
   for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
@@ -16,7 +17,8 @@ glm::dvec3 newell_normal(std::span<const glm::dvec3> corners) {
   return normal;
 }
 
-// The corners in the coordinate plane that their normal is closest to, keeping their orientation.
+// The corners projected on the coordinate plane most nearly parallel to the polygon, with their
+// orientation kept.
 std::vector<glm::dvec2> project(std::span<const glm::dvec3> corners) {
   const glm::dvec3 normal = newell_normal(corners);
   const glm::dvec3 size = glm::abs(normal);
@@ -63,7 +65,7 @@ std::vector<std::array<uint32_t, 3>> triangulate(std::span<const glm::dvec3> cor
     if (!(turn_at(i) > 0.0)) return false;
     const auto [a, b, c] = corner(i);
     for (std::size_t k = 0; k < ring.size(); ++k) {
-      // Only a corner that does not turn left can lie in an ear of a simple polygon.
+      // In a simple polygon only a corner that does not turn left can lie inside an ear.
       if (turn_at(k) <= 0.0 && inside(points[ring[k]], points[a], points[b], points[c])) {
         return false;
       }

@@ -1,4 +1,4 @@
-// Frames as image files.
+// Frames as image files. Safe to use from several threads.
 #pragma once
 
 #include <filesystem>
@@ -16,12 +16,12 @@ ImageFormat image_format(const std::filesystem::path& path);
 // Writes 8-bit sRGB. Throws InputError, naming the file.
 void write_png(const Frame& frame, const AtomicFile& file);
 
-// Writes R G B A (linear light, A = 1 where hit) and, if the frame has them, Z, N.X N.Y N.Z, G.X
-// G.Y G.Z, patch, U, V: single precision, patch as unsigned integers. Throws InputError, naming the
-// file.
+// Writes R G B A (linear light, A = 1 where hit) and, if the frame has AOVs, Z, N.X N.Y N.Z, G.X
+// G.Y G.Z, patch, U, V, in single precision, patch as unsigned integers; with evals also evals,
+// unsigned. README says what each channel holds. Throws InputError, naming the file.
 void write_exr(const Frame& frame, bool evals, const AtomicFile& file);
 
-// By one of the two. evals: as write_exr has it.
+// Writes in that format. evals: also an EXR channel with the evaluations of each pixel.
 void write_image(const Frame& frame, ImageFormat format, bool evals, const AtomicFile& file);
 
 // The same, by the file name's ending: the file appears whole or not at all. Throws UsageError or

@@ -47,7 +47,7 @@ Frame read_png(const fs::path& path) {
   return frame;
 }
 
-// A place in memory for one channel.
+// Where in a frame the values of one channel go.
 struct Slot {
   const char* name;
   Imf::PixelType type;
@@ -87,13 +87,13 @@ std::vector<Slot> aov_slots(Frame& frame) {
   return slots;
 }
 
-// Moved by the data window's corner, where the file's first pixel is.
+// OpenEXR addresses pixels by their coordinates in the data window, which need not begin at (0, 0).
 void insert(Imf::FrameBuffer& buffer, const Slot& slot, const Imath::Box2i& window,
             std::size_t width) {
   const std::size_t row = slot.stride * width;
   char* base = slot.first - window.min.x * static_cast<std::ptrdiff_t>(slot.stride) -
                window.min.y * static_cast<std::ptrdiff_t>(row);
-  // 1 where a file has no alpha.
+  // The fill value 1 is the alpha of a file without alpha.
   buffer.insert(slot.name, Imf::Slice(slot.type, base, slot.stride, row, 1, 1, 1.0));
 }
 
