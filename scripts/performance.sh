@@ -83,7 +83,7 @@ How many times as fast the tiles are, on Mesa 25.0.7, then on 22.3.6:
 
 Frames by tiles on Mesa 25.0.7, and what their rays do. The scene is read at one or two GB a second, and lies in the cores' own
 caches: memory is not the limit. The time goes with the evaluations of the surface and what leads to them. Newton's method takes
-two or three for each part that a ray comes near, few enough that tenfold faster frames would need cheaper ones, and not fewer.
+two or three for each subpatch that a ray comes near, few enough that tenfold faster frames would need cheaper ones, and not fewer.
 So a frame stays many times an image that has nothing but the sky's colour.
 
 END

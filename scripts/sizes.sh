@@ -41,7 +41,7 @@ means nothing.
 
 ![Milliseconds over patches](sizes.svg)
 
-Read is the OBJ file, bake the triangles and their cages, bytes what a patch takes on the device: triangle, cages, tree.
+Read is the OBJ file, bake the triangles and the bounds of their subpatches, bytes what a patch takes on the device: triangle, bounds, tree.
 Evaluations of the surface and bytes read are those of a pixel. With a hundred thousand patches in view their sides are
 of two pixels: the rays of a packet have hardly a patch in common, and each loads its own.
 
