@@ -1,33 +1,36 @@
 // The first root of a ray in a patch, or the certainty that there is none.
 //
-// The patch is seen in the ray's frame, where a root is a zero of S.xy over the triangle. Nodes, sub-triangles
-// of dyadic size, are taken from a quadtree: one whose cage stays clear of the ray is done; one in which the cage
-// allows one root at most (mean_jacobian) is solved by Newton's method, held within the node; where that ends on the
-// node's border without a root, an interval Newton test must prove that there is none. What is not proven is
-// divided. Silhouettes, where a ray grazes a node, are divided nine times; Newton then starts from every corner.
-//
-// After projecting the control points on two planes through the ray the test of the hull is Bezier clipping's
-// (Nishita, Sederberg & Kakimoto 1990); the test of the tangents is Volino & Magnenat-Thalmann's (1994) criterion
-// for a surface that a direction meets once, taken over all pairs of control vectors; interval Newton after Toth
-// (1985), "On ray tracing parametric surfaces".
+// In the ray's frame a root is a zero of S.xy over the triangle. A subpatch is searched as a quadtree of sub-triangles,
+// its nodes, depth first:
+// - A node whose control points, widened by the position error, stay on one side of the ray is left out. The control
+//   points are projected along the ray, as in Bezier clipping (Nishita, Sederberg & Kakimoto 1990, "Ray tracing trimmed
+//   rational surface patches").
+// - A node that passes the contraction test (subpatch_bounds.glsl) has one root at most. Newton's method, held within the
+//   node, finds it, or ends on the node's border, where newton_excludes must prove that there is none.
+// - What is not proven is divided in four, up to nine times. A node of the last level that fails the contraction test
+//   lies where the ray grazes the surface; Newton's method then starts from each of its corners, and finding nothing
+//   proves nothing.
+// Before all that intersect_by_newton tries Newton's method on the whole subpatch, with a cone that the bake has proven.
 
 // What a search of a node found.
 const uint FOUND_ROOT = 0u;
 const uint PROVEN_MISS = 1u;
 const uint UNDECIDED = 2u;  // neither a root nor that there is none
 
+// newton(): steps at most.
 const int MOST_STEPS = 10;
-// Of a node's size. Steps this small leave an error of their square.
+// newton() ends with a step of at most this part of the node's size; it leaves an error of the order of its square.
 const real SMALL_STEP = real(1e-4);
-const int ONCE_STEPS = 6;
-// In weights of the part: a step of this size leaves an error of its square.
-const real ONCE_MOVED = real(1e-4);
 // No step is smaller than the roundings of a weight.
 const real WEIGHT_ROUNDINGS = real(2.4e-7);
-// Beside the curves on which lines begin to miss a sphere sigma's roundings keep the steps of a `rough` search from getting
-// smaller: the last may have this part of the node's size.
+// Beside the curves on which lines begin to miss a vertex's sphere the roundings of sigma keep Newton's steps from getting
+// small. In a `rough` search the last of MOST_STEPS is accepted if it is at most this part of the node's size.
 const real ROUGH_STEP = real(0.0625);
-// What the loops of one node take of Traversal::steps, beside the evaluations.
+// intersect_by_newton(): steps at most, and the part of the subpatch's size that the last may have. It is as large as in
+// newton(), with the same error.
+const int ONCE_STEPS = 6;
+const real ONCE_MOVED = real(1e-4);
+// What the loops for one node count for in Traversal::steps, without the evaluations.
 const int VISIT_STEPS = 8;
 
 // Orthonormal axes with z = view: Duff et al. 2017, "Building an orthonormal basis, revisited".
@@ -50,7 +53,7 @@ vec3 rotated(RayFrame frame, vec3 a) {
   return vec3(dot3(frame.x, a), dot3(frame.y, a), dot3(frame.z, a));
 }
 
-// The patch in the frame's axes.
+// The patch in the frame's axes, not sheared yet.
 FramedPatch rotated_patch(RayFrame frame, uint shell, Triangle tri) {
   FramedPatch at;
   at.P0 = rotated(frame, vec3(tri.Position[0]) - frame.anchor);
@@ -62,7 +65,7 @@ FramedPatch rotated_patch(RayFrame frame, uint shell, Triangle tri) {
   return at;
 }
 
-// A point, and a direction, of the axes in the ray's frame.
+// From the frame's axes to the ray's frame: a point, a direction, a patch.
 vec3 sheared_point(RayFrame frame, vec3 p) { return vec3(vec2(p) - (frame.offset + frame.slope * p.z), p.z); }
 
 vec3 sheared_direction(RayFrame frame, vec3 d) { return vec3(vec2(d) - frame.slope * d.z, d.z); }
@@ -78,11 +81,12 @@ FramedPatch sheared_patch(RayFrame frame, FramedPatch at) {
   return framed;
 }
 
-// What a coordinate across the ray may be off by. A ray that passes a patch's border by less than this meets it, so that
-// none falls between two patches.
+// What a coordinate across the ray may be off by, rounding in single precision. A ray that passes a patch's border by less
+// than this meets it, so that none falls between two patches.
 real position_tolerance(RayFrame frame, Triangle tri) { return ROUNDINGS * frame.stretch * farthest(frame.anchor, tri); }
 
-// The quadratic of a cubic patch is sigma itself.
+// sigma at weights w. Where the surface is cubic, the quadratic of the bounds is sigma itself: its edge coefficients are
+// half of the edges' bulges.
 Displacement displacement_in(Shape shape, Triangle tri, SubpatchBounds bounds, vec3 w) {
   if (is_cubic(shape)) return bulged(vec3(bounds.edge) * real(2.0), w);
   return displacement_and_derivatives(shape, tri, w);
@@ -98,16 +102,10 @@ SurfacePoint evaluate_surface(Shape shape, Triangle tri, SubpatchBounds bounds, 
   return at;
 }
 
-SubTriangle with_overlap(SubTriangle node) {
-  SubTriangle wide;
-  wide.origin = node.origin - vec3(OVERLAP * node.size);
-  wide.size = (real(1.0) + real(3.0) * OVERLAP) * node.size;
-  return wide;
-}
-
 real least(vec3 a) { return min(min(a.x, a.y), a.z); }
 
-// The root of the triangle of a node's corners, in weights within it, drawn to the triangle.
+// Where Newton's method starts: the root of the flat triangle of a node's corners, in weights within the node, moved into
+// the triangle.
 vec3 flat_guess(ControlNet net) {
   vec2 u = net.b030 - net.b300;
   vec2 v = net.b003 - net.b300;
@@ -119,15 +117,16 @@ vec3 flat_guess(ControlNet net) {
   return sum > real(0.0) && sum < real(1e6) ? l / sum : vec3(real(1.0) / real(3.0));
 }
 
-// w drawn to the triangle.
+// The weights, moved into the triangle: negative ones set to 0, the sum to 1.
 vec3 held_inside(vec3 w) {
   vec3 inside = max(w, vec3(0.0));
   return inside / (inside.x + inside.y + inside.z);
 }
 
-// The point of the triangle's border that the ray passes closest, where the linearised surface f + u du + v dv about
-// `from` has its root `target` outside: the foot of the ray on the edge, not the root's own, from which a grazing
-// ray is far.
+// The weights of the point of the triangle's border that the ray passes closest, for a root `target` outside the triangle
+// of the linearised surface f + u du + v dv about the weights `from`. On the edge that the root lies beyond, it is the
+// foot of the perpendicular from the ray, in the plane across the ray; the point of the edge nearest to the root, in
+// weights, can be far from a ray that grazes the surface.
 vec3 closest_on_border(vec3 from, vec3 target, vec2 f, vec2 u, vec2 v) {
   bool beyond0 = target.x <= target.y && target.x <= target.z;
   bool beyond1 = !beyond0 && target.y <= target.z;
@@ -142,15 +141,25 @@ vec3 closest_on_border(vec3 from, vec3 target, vec2 f, vec2 u, vec2 v) {
   return held_inside(on_edge + along * s);
 }
 
-// Newton's method from the weights l within a node. If the node is `certified` to hold one root at most,
-// PROVEN_MISS is a proof. `rough`: a root may be known no better than ROUGH_STEP. On a root: its place along the ray, and its
-// weights.
-uint newton(Shape shape, Triangle tri, SubpatchBounds bounds, FramedPatch framed, SubTriangle node, MeanJacobian mean, bool certified, bool rough,
-            real tolerance, vec3 l, OUT(real) z, OUT(vec3) weights, INOUT(uint) evaluations) {
+// What newton() searches, and how.
+struct NewtonQuery {
+  FramedPatch framed;
+  SubTriangle node;
+  MeanJacobian mean;  // of the node
+  bool certified;     // mean.contraction_bound < 1: the node holds one root at most
+  bool rough;         // the steps may stay as large as ROUGH_STEP
+  real tolerance;     // position_tolerance
+};
+
+// Newton's method for S.xy = 0 from the weights l within the node, each step held within it. FOUND_ROOT gives the root's
+// z and its weights in the patch; PROVEN_MISS is a proof that the node holds no root if the query is certified, or that
+// the root that the method converged to lies beside the patch.
+uint newton(Shape shape, Triangle tri, SubpatchBounds bounds, NewtonQuery query, vec3 l, OUT(real) z,
+            OUT(vec3) weights, INOUT(uint) evaluations) {
   z = real(0.0);
-  weights = weights_of(node, l);
+  weights = weights_of(query.node, l);
   for (int i = 0; i < MOST_STEPS; ++i) {
-    SurfacePoint at = evaluate_surface(shape, tri, bounds, framed, weights);
+    SurfacePoint at = evaluate_surface(shape, tri, bounds, query.framed, weights);
     ++evaluations;
     vec2 f = vec2(at.S);
     vec2 u = vec2(at.u);
@@ -163,28 +172,29 @@ uint newton(Shape shape, Triangle tri, SubpatchBounds bounds, FramedPatch framed
     if (!(step < real(1e6))) return UNDECIDED;
     vec3 from = weights;
     vec3 target = from + vec3(-du - dv, du, dv);
-    vec3 inside = weights_in(node, target);
-    // Where the ray grazes the surface the last digits of f move the step further than any bound on it.
-    bool exact = largest(f) <= real(0.5) * tolerance;
+    vec3 inside = weights_in(query.node, target);
+    // Where the ray grazes the surface the rounding of f alone makes steps that never get small: there a small f is enough.
+    bool exact = largest(f) <= real(0.5) * query.tolerance;
     bool held = least(inside) < real(0.0) && !exact;
     if (held) {
-      if (certified && newton_excludes(mean, f, weights_in(node, from), real(1e-5))) return PROVEN_MISS;
-      target = weights_of(node, held_inside(inside));
+      if (query.certified && newton_excludes(query.mean, f, weights_in(query.node, from), real(1e-5))) return PROVEN_MISS;
+      target = weights_of(query.node, held_inside(inside));
     }
     weights = target;
     real moved = max(abs(target.y - from.y), abs(target.z - from.z));
-    bool settled = rough && !held && i == MOST_STEPS - 1 && moved <= ROUGH_STEP * abs(node.size);
-    if (moved > max(SMALL_STEP * abs(node.size), WEIGHT_ROUNDINGS) && !exact && !settled) continue;
-    // Of a node's border only what it shares with the patch's is of interest: beyond the rest of it lie other
-    // nodes, which overlap this one.
+    bool settled = query.rough && !held && i == MOST_STEPS - 1 && moved <= ROUGH_STEP * abs(query.node.size);
+    if (moved > max(SMALL_STEP * abs(query.node.size), WEIGHT_ROUNDINGS) && !exact && !settled) continue;
+    // The method was held on the node's border without a root. A root beyond it belongs to the neighbour, which overlaps
+    // this node, or lies beside the patch.
     if (held) return UNDECIDED;
     real gu = du;
     real gv = dv;
+    // A root beside the patch is a hit if the ray passes the patch's border within the tolerance.
     if (least(target) < real(0.0)) {
       weights = closest_on_border(from, target, f, u, v);
       gu = weights.y - from.y;
       gv = weights.z - from.z;
-      if (largest(f + u * gu + v * gv) > tolerance) return PROVEN_MISS;
+      if (largest(f + u * gu + v * gv) > query.tolerance) return PROVEN_MISS;
     }
     z = at.S.z + at.u.z * gu + at.v.z * gv;
     return FOUND_ROOT;
@@ -192,11 +202,12 @@ uint newton(Shape shape, Triangle tri, SubpatchBounds bounds, FramedPatch framed
   return UNDECIDED;
 }
 
-// The root in a part through whose cone the ray goes steeply: it meets the enlarged part once at most, so that a root
-// found beside the part proves that there is none in it. Newton's method with nothing to hold it; what it leaves
-// undecided, roots on the patch's border among it, is for the search below.
-uint intersect_by_newton(Shape shape, Triangle tri, SubpatchBounds bounds, FramedPatch framed, vec3 view, real tolerance, OUT(real) z,
-               OUT(vec3) weights, INOUT(uint) evaluations) {
+// Newton's method on a whole subpatch, from its centre, with nothing to hold it. It decides only for a ray within the
+// subpatch's cone: such a ray meets the enlarged subpatch once at most, so a root that it finds beside the subpatch, but
+// in the enlarged one, proves that the subpatch has none. What it leaves undecided, roots close to the patch's border for
+// example, is for intersect_subpatch.
+uint intersect_by_newton(Shape shape, Triangle tri, SubpatchBounds bounds, FramedPatch framed, vec3 view,
+                         real tolerance, OUT(real) z, OUT(vec3) weights, INOUT(uint) evaluations) {
   vec3 Pu = framed.P1 - framed.P0;
   vec3 Pv = framed.P2 - framed.P0;
   vec3 Du = framed.D1 - framed.D0;
@@ -204,7 +215,8 @@ uint intersect_by_newton(Shape shape, Triangle tri, SubpatchBounds bounds, Frame
   real size = abs(bounds.sub_triangle.w);
   bool steep = abs(dot3(vec3(bounds.cone), view)) > bounds.cone.w;
   vec3 next = vec3(bounds.sub_triangle) + vec3(bounds.sub_triangle.w / real(3.0));
-  // Of the last step: where from, sigma there, how far, and what the surface spans there, seen along the ray.
+  // Of the last step: where from; sigma and its derivatives there; the step; S_u x S_v across the ray, and a bound on the
+  // length of an edge.
   vec3 from = next;
   vec3 sigma = vec3(0.0);
   vec2 step = vec2(0.0);
@@ -212,8 +224,8 @@ uint intersect_by_newton(Shape shape, Triangle tri, SubpatchBounds bounds, Frame
   real longest = real(0.0);
   bool found = !steep;
   int left = ONCE_STEPS;
-  // The condition stands at the end because llvmpipe runs the body once more, masked, if it stands at the head. Mesa
-  // 22.3 then loses what a ray had when it left the loop before others, hence the choices by `found`.
+  // The condition is at the end because llvmpipe runs the body once more, masked, if it is at the head. Mesa 22.3 then
+  // loses the values of a ray that left the loop before others of its subgroup, hence the choices by `found`.
   do {
     Displacement here = displacement_in(shape, tri, bounds, next);
     EXACT vec3 D = framed.D0 + Du * next.y + Dv * next.z;
@@ -242,8 +254,8 @@ uint intersect_by_newton(Shape shape, Triangle tri, SubpatchBounds bounds, Frame
   real outside_subpatch = -least((weights - vec3(bounds.sub_triangle)) / bounds.sub_triangle.w);
   if (!steep || !(largest(step) <= ONCE_MOVED * size) || !(outside_subpatch <= CONE_MARGIN)) return UNDECIDED;
   if (outside <= real(0.0)) return outside_subpatch <= OVERLAP ? FOUND_ROOT : PROVEN_MISS;
-  // So far from the line of an edge, over the longest of which 1.5 (|u| + |v|) is: twice the reach, for the surface's
-  // bend between here and there.
+  // Beside the patch: seen along the ray the root is `outside` * |slope| over an edge's length away from the line of that
+  // edge; 1.5 (|u| + |v|) is no less than the longest edge. Twice the tolerance leaves room for the surface's curvature.
   return outside * abs(slope) > real(2.0) * tolerance * longest ? PROVEN_MISS : UNDECIDED;
 }
 
@@ -256,13 +268,13 @@ void keep_nearest(real z, vec3 weights, uint triangle, uint subpatch, real neare
   }
 }
 
-// A patch without displacement: its plane is met once, no node is looked at.
+// A patch without displacement: the ray meets its plane in closed form.
 void intersect_flat(FramedPatch framed, uint triangle, uint subpatch, real tolerance, real nearest, INOUT(Hit) hit) {
   vec2 P = vec2(framed.P0);
   vec2 u = vec2(framed.P1) - P;
   vec2 v = vec2(framed.P2) - P;
   real det = cross2(u, v);
-  // Seen so much from its edge that it is thinner than the grain: what is behind it, or beside it, is met.
+  // A triangle that is thinner than the tolerance, seen along the ray, is missed: what is behind it or beside it is hit.
   if (!(abs(det) > tolerance * max(largest(u), largest(v)))) return;
   real a = -cross2(P, v) / det;
   real b = cross2(P, u) / det;
@@ -276,8 +288,10 @@ void intersect_flat(FramedPatch framed, uint triangle, uint subpatch, real toler
   }
 }
 
-// The quadratic for a node. That of the cage, but for a linear part that moves it onto the surface at the node's
-// centre, to second order: what it strays from there shrinks with the node.
+// The quadratic for a node. For the whole subpatch it is the one of the bounds. For smaller nodes a linear function is added
+// that gives it the value and the gradient of sigma at the node's centre: the errors then shrink with the node, by its
+// size squared for the position and by its size for the tangents, as the gradient of the difference has the Lipschitz
+// constant bounds.gradient_lipschitz / |D|.
 Fit fit_bounds(Shape shape, Triangle tri, SubpatchBounds bounds, SubTriangle node, bool whole, INOUT(uint) evaluations) {
   Fit fit;
   fit.corner = vec3(bounds.corner);
@@ -292,25 +306,27 @@ Fit fit_bounds(Shape shape, Triangle tri, SubpatchBounds bounds, SubTriangle nod
   real eu = sigma.u - real(2.0) * blossom(fit.corner, fit.edge, c, vec3(-1.0, 1.0, 0.0));
   real ev = sigma.v - real(2.0) * blossom(fit.corner, fit.edge, c, vec3(-1.0, 0.0, 1.0));
   add_linear(fit, c, e, vec2(eu, ev));
-  // No point of a widened node is farther from its centre than this, in the weights 1 and 2: sqrt(5) / 3 of its
-  // size.
+  // No point of the node with its overlap is farther from the centre than this, in the plane of the weights 1 and 2:
+  // sqrt(5) / 3 of its size.
   real away = real(0.7454) * (real(1.0) + real(3.0) * OVERLAP) * abs(node.size);
   fit.position_error = min(fit.position_error, real(0.5) * bounds.gradient_lipschitz * away * away);
   fit.tangent_error = min(fit.tangent_error, bounds.gradient_lipschitz * away * (real(1.0) + away));
   return fit;
 }
 
-// Roots of a ray in one part of a patch, from the node walk.path on; the nearest beyond `nearest` that is before
-// walk.hit becomes it. walk.path is WHOLE again at the end, or else where the steps ended. kinks: whether sigma may have
-// one in some part.
-void intersect_subpatch(Shape shape, bool may_be_nonsmooth, Triangle tri, SubpatchBounds bounds, uint subpatch, RayFrame frame, vec3 view, real nearest,
-               INOUT(Traversal) traversal) {
+// The roots of a ray in one subpatch, from the node traversal.path on: the nearest one beyond `nearest` that comes before
+// traversal.hit becomes it. Afterwards traversal.path is WHOLE if the search is finished, or else the node at which the
+// steps ran out. `view`: the ray's direction in the scene's axes, of unit length. `may_be_nonsmooth`: whether any subpatch
+// of the scene is marked NONSMOOTH; a constant, by which kernels leave the code for those out.
+void intersect_subpatch(Shape shape, bool may_be_nonsmooth, Triangle tri, SubpatchBounds bounds, uint subpatch,
+                        RayFrame frame, vec3 view, real nearest, INOUT(Traversal) traversal) {
   FramedPatch framed = sheared_patch(frame, rotated_patch(frame, shape.shell, tri));
   real tolerance = position_tolerance(frame, tri);
   if (traversal.path == WHOLE) {
     real z;
     vec3 weights;
-    uint found = intersect_by_newton(shape, tri, bounds, framed, view, tolerance, z, weights, traversal.counts.evaluations);
+    uint found =
+        intersect_by_newton(shape, tri, bounds, framed, view, tolerance, z, weights, traversal.counts.evaluations);
     if (found == FOUND_ROOT) keep_nearest(z, weights, bounds.triangle, subpatch, nearest, traversal.hit);
     if (found != UNDECIDED) return;
   }
@@ -333,21 +349,25 @@ void intersect_subpatch(Shape shape, bool may_be_nonsmooth, Triangle tri, Subpat
     ControlNet net = control_net(framed, fit.corner, fit.edge, wide);
     bool divide = false;
     if (near && hull_overlaps_ray(net, frame.stretch * fit.position_error + tolerance)) {
-      real position_error = frame.stretch * fit.tangent_error * abs(wide.size) / real(3.0);
-      MeanJacobian mean = mean_jacobian(tangents(net), position_error);
-      bool certified = mean.contraction_bound < real(1.0);
-      // Where the steps must get small but for roundings, and no smaller node is left.
-      bool rough = may_be_nonsmooth && bounds.gradient_lipschitz == NONSMOOTH && certified && last;
-      divide = !certified && !last;
-      int starts = divide ? 0 : certified ? 1 : 3;
-      vec3 start = certified ? flat_guess(net) : vec3(1.0, 0.0, 0.0);
+      // By the weights within the node, over 3, as the control vectors are.
+      real tangent_error = frame.stretch * fit.tangent_error * abs(wide.size) / real(3.0);
+      NewtonQuery query;
+      query.framed = framed;
+      query.node = wide;
+      query.mean = mean_jacobian(tangents(net), tangent_error);
+      query.certified = query.mean.contraction_bound < real(1.0);
+      // Newton's steps would get small but for roundings, and there is no smaller node to try.
+      query.rough = may_be_nonsmooth && bounds.gradient_lipschitz == NONSMOOTH && query.certified && last;
+      query.tolerance = tolerance;
+      divide = !query.certified && !last;
+      int starts = divide ? 0 : query.certified ? 1 : 3;
+      vec3 start = query.certified ? flat_guess(net) : vec3(1.0, 0.0, 0.0);
       for (int k = 0; k < starts; ++k) {
         real z;
         vec3 weights;
-        uint found = newton(shape, tri, bounds, framed, wide, mean, certified, rough, tolerance, start, z, weights,
-                            traversal.counts.evaluations);
+        uint found = newton(shape, tri, bounds, query, start, z, weights, traversal.counts.evaluations);
         if (found == FOUND_ROOT) keep_nearest(z, weights, bounds.triangle, subpatch, nearest, traversal.hit);
-        divide = certified && found == UNDECIDED && !last;
+        divide = query.certified && found == UNDECIDED && !last;
         start = vec3(start.z, start.x, start.y);
       }
     }
@@ -356,7 +376,7 @@ void intersect_subpatch(Shape shape, bool may_be_nonsmooth, Triangle tri, Subpat
       node = child(node, 0u);
       traversal.path = traversal.path << 2;
     } else {
-      // On to the next sibling, or that of the nearest ancestor that has one.
+      // Go on to the next sibling, or to that of the nearest ancestor that has one.
       while ((traversal.path & 3u) == 3u) {
         node = parent(node, 3u);
         traversal.path = traversal.path >> 2;

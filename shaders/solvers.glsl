@@ -6,6 +6,8 @@
 #include "surface.glsl"
 #include "thesis_field.glsl"
 #include "bisect.glsl"
+#include "sub_triangle.glsl"
+#include "control_net.glsl"
 #include "subpatch_bounds.glsl"
 #include "sphere_range.glsl"
 #include "robust.glsl"

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/surface/control_net.h"
 #include "app/surface/patch_range.h"
 #include "app/surface/sphere_range.h"
 
@@ -19,23 +20,17 @@ std::vector<Ball> flat_balls(const Patch& patch) {
   return {{patch.P[0], 0.0}, {patch.P[1], 0.0}, {patch.P[2], 0.0}};
 }
 
-// The control points of the cubic Bezier triangle that phong is in the normal shell.
-std::vector<Ball> control_points(const Patch& patch, double alpha) {
-  std::vector<Ball> points = flat_balls(patch);
-  dvec3 middle = (patch.P[0] + patch.P[1] + patch.P[2]) * 2.0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    const std::size_t k = (i + 2) % 3;
-    const double s = alpha * glm::dot(patch.P[j] - patch.P[i], patch.N[j] - patch.N[i]);
-    points.push_back({(patch.P[i] * 2.0 + patch.P[j] + patch.N[i] * s) / 3.0, 0.0});
-    points.push_back({(patch.P[j] * 2.0 + patch.P[i] + patch.N[j] * s) / 3.0, 0.0});
-    middle += patch.N[k] * s;
+// For phong in the normal shell.
+std::vector<Ball> cubic_balls(const Patch& patch, double alpha) {
+  std::vector<Ball> points;
+  for (const dvec3& point : control_points(patch, phong_quadratic(patch, alpha), kWholeTriangle)) {
+    points.push_back({point, 0.0});
   }
-  points.push_back({middle / 6.0, 0.0});
   return points;
 }
 
-std::vector<Ball> phong_balls(const Patch& patch, double alpha) {
+// For phong in the height shell.
+std::vector<Ball> thales_balls(const Patch& patch, double alpha) {
   std::vector<Ball> balls = flat_balls(patch);
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
@@ -48,21 +43,22 @@ std::vector<Ball> phong_balls(const Patch& patch, double alpha) {
   return balls;
 }
 
-// Points whose hull contains the sphere surface over 4^level parts of the triangle; none where a
-// part has no bound.
+// Points whose hull contains the sphere surface, from the ranges of sigma over 4^level
+// sub-triangles. None if sigma has no known range over one of them.
 std::vector<Ball> sphere_points(const Patch& patch, int level) {
-  std::vector<Part> parts{kWholeTriangle};
+  std::vector<in_double::SubTriangle> sub_triangles{kWholeTriangle};
   for (int k = 0; k < level; ++k) {
-    std::vector<Part> finer;
-    for (const Part& part : parts) {
-      for (const Part& piece : quarter(part)) finer.push_back(piece);
+    std::vector<in_double::SubTriangle> finer;
+    for (const in_double::SubTriangle& coarse : sub_triangles) {
+      for (const in_double::SubTriangle& fine : quarter(coarse)) finer.push_back(fine);
     }
-    parts = std::move(finer);
+    sub_triangles = std::move(finer);
   }
   std::vector<Ball> points;
-  for (const Part& part : parts) {
-    const PartCorners corners = corners_of(patch, part);
-    const std::optional<Interval> sigma = sphere_sigma_range(patch, part, corners);
+  for (const in_double::SubTriangle& sub_triangle : sub_triangles) {
+    const CornerWeights weights = corner_weights(sub_triangle);
+    const PartCorners corners = corners_of(patch, weights);
+    const std::optional<Interval> sigma = sphere_sigma_range(patch, weights, corners);
     if (!sigma) return {};
     for (std::size_t k = 0; k < 3; ++k) {
       points.push_back({corners.T[k] + corners.D[k] * sigma->lo, 0.0});
@@ -74,10 +70,10 @@ std::vector<Ball> sphere_points(const Patch& patch, int level) {
 
 Ball bound_sphere_surface(const Patch& patch) {
   const Ball base = enclosing_ball(flat_balls(patch));
-  // No point is displaced by more than the longest edge.
+  // sphere_heights displaces no point by more than the longest edge.
   Ball best{base.center, base.radius + patch.longest};
   for (const dvec3& D : patch.D) {
-    // An infinite direction, or one against the face normal, bounds nothing below.
+    // From an infinite direction the ranges below would have no bound either.
     if (!std::isfinite(glm::dot(D, D))) return best;
   }
   constexpr double tight = 1.1;
@@ -97,8 +93,8 @@ Ball bound_patch(const SurfaceChoice& choice, const Triangle& tri) {
   const Patch patch = patch_of(choice.shell, tri);
   const auto points = [&] {
     if (choice.surface == SURFACE_FLAT) return flat_balls(patch);
-    return choice.shell == SHELL_HEIGHT ? phong_balls(patch, choice.alpha)
-                                        : control_points(patch, choice.alpha);
+    return choice.shell == SHELL_HEIGHT ? thales_balls(patch, choice.alpha)
+                                        : cubic_balls(patch, choice.alpha);
   };
   Ball ball =
       choice.surface == SURFACE_SPHERE ? bound_sphere_surface(patch) : enclosing_ball(points());

@@ -7,11 +7,11 @@
 #include <optional>
 #include <vector>
 
-#include "app/bake/control_net.h"
 #include "app/bake/enclosing_ball.h"
 #include "app/base/max_propagating_nan.h"
 #include "app/base/parallel_rows.h"
 #include "app/base/rounding.h"
+#include "app/surface/control_net.h"
 #include "app/surface/patch_range.h"
 #include "app/surface/sphere_range.h"
 #include "app/surface/surface_double.h"
@@ -23,70 +23,78 @@ namespace {
 
 using glm::dvec3;
 
-// A cage's quadratic must follow sigma to this part of the longest edge of its part of the
-// triangle, and its tangents S's to this part of it; else the part is divided, at most so many
-// times. A part with a kink, whose tangents no quadratic follows, is divided further by the kernel,
-// for the few rays that come near.
+using in_double::SubTriangle;
+
+// The quadratic of a subpatch must follow the surface to this part of the longest edge of the
+// sub-triangle, and the tangents to this part of the longest edge of the patch; otherwise the
+// subpatch is divided, at most so many times. One that may be nonsmooth, whose tangents no
+// quadratic follows, is divided further by the kernel, for the few rays that come near.
 constexpr double kClose = 0.02;
 constexpr double kTangentsClose = 0.1;
 constexpr int kMostLevels = 6;
-// Interval arithmetic is tighter over pieces of a part: 4^2 of them.
+// Interval arithmetic is tighter over small pieces: a subpatch is examined in 4^2 of them.
 constexpr int kProofDivisions = 2;
 
-// Rays are quick along the directions of a part's cone (SubpatchBounds::cone), whose w should be at
-// most so large; else the part is divided, for this reason no further than to 4^2 parts of a patch.
+// The solver is fast for rays within a subpatch's cone (SubpatchBounds::cone), whose w should be at
+// most this; otherwise the subpatch is divided, for this reason only down to a 4^2th of the patch.
 constexpr float kWide = 0.3F;
 constexpr int kLevelsForCones = 2;
 const vec4 kNoCone(0.0F, 0.0F, 0.0F, NO_CONE);
 
-// sigma is sampled at the weights with this denominator; between the samples it may stray further
-// by this factor.
+// sigma is sampled at the weights with this denominator, 91 points. What the samples show is
+// multiplied by kBetweenSamples for the points between them, which is a margin and no proof.
 constexpr int kSamples = 12;
 constexpr double kBetweenSamples = 1.5;
 
 struct PatchData {
   in_double::Shape shape;
   in_double::Triangle tri;
-  Corners corners;
-  Patch ranges;      // for proofs
-  glm::vec3 bulges;  // the kernels' edge_bulges
+  Patch corners;
+  glm::vec3 bulges;  // edge_bulges in single precision, as the kernels see them
 };
 
-// A piece of a part, and the range of sigma over it, if D does not vanish.
+// A piece of a subpatch, and the range of sigma over it, if one is known.
 struct RangedPiece {
-  Part part;
+  CornerWeights weights;
   PartCorners corners;
   std::optional<Interval> sigma;
 };
 
 struct Fit {
   DisplacementQuadratic q;
-  double position_error = 0.0;      // of S, a length
-  double tangent_error = 0.0;       // of S_u and S_v
-  double gradient_lipschitz = 0.0;  // SubpatchBounds::bend
-  std::vector<RangedPiece> pieces;  // of a part that may have a kink, its overlap included
+  double position_error = 0.0;      // S is no farther from T + q D, a length
+  double tangent_error = 0.0;       // S_u and S_v are no farther from those of T + q D
+  double gradient_lipschitz = 0.0;  // SubpatchBounds::gradient_lipschitz
+  std::vector<RangedPiece> pieces;  // of a subpatch that may be nonsmooth, its overlap included
 };
 
-PatchData patch_of(const SurfaceChoice& choice, const Triangle& single) {
-  const in_double::Triangle tri = to_double(single);
-  return {shape_of(choice), tri, corners_of(tri, choice.shell), patch_of(choice.shell, single),
+PatchData patch_data(const SurfaceChoice& choice, const Triangle& single) {
+  return {shape_of(choice), to_double(single), patch_of(choice.shell, single),
           in_float::edge_bulges(single, static_cast<float>(choice.alpha))};
 }
 
-// The quadratic with these values at the part's corners and at the middles of its edges.
+dvec3 vertex_weights(int k) {
+  dvec3 e(0.0);
+  e[k] = 1.0;
+  return e;
+}
+
+// The quadratic with these values at the corners of a sub-triangle and at the midpoints of its
+// edges.
 template <typename Value>
-DisplacementQuadratic through(const SubTriangle& part, Value&& value) {
-  const auto at = [&](const dvec3& l) { return value(part.origin + l * part.size); };
+DisplacementQuadratic through(const SubTriangle& sub_triangle, Value&& value) {
+  const auto at = [&](const dvec3& l) { return value(in_double::weights_of(sub_triangle, l)); };
   DisplacementQuadratic local;
-  for (int k = 0; k < 3; ++k) local.corner[k] = at(corner_weights(k));
+  for (int k = 0; k < 3; ++k) local.corner[k] = at(vertex_weights(k));
   for (int k = 0; k < 3; ++k) {
     const int i = k == 2 ? 0 : k;
     const int j = k == 2 ? 2 : k + 1;
-    local.edge[k] = 2.0 * at((corner_weights(i) + corner_weights(j)) * 0.5) -
+    local.edge[k] = 2.0 * at((vertex_weights(i) + vertex_weights(j)) * 0.5) -
                     (local.corner[i] + local.corner[j]) * 0.5;
   }
-  // In the weights of the whole: the blossom does not mind that the corners lie outside the part.
-  const auto inside = [&](int k) { return (corner_weights(k) - part.origin) / part.size; };
+  // Over the whole triangle: its vertices may lie outside the sub-triangle, a blossom has values
+  // there, too.
+  const auto inside = [&](int k) { return in_double::weights_in(sub_triangle, vertex_weights(k)); };
   DisplacementQuadratic whole;
   for (int k = 0; k < 3; ++k) whole.corner[k] = local.blossom(inside(k), inside(k));
   whole.edge = {local.blossom(inside(0), inside(1)), local.blossom(inside(1), inside(2)),
@@ -94,11 +102,10 @@ DisplacementQuadratic through(const SubTriangle& part, Value&& value) {
   return whole;
 }
 
-// sigma - q and its gradient.
 struct Sample {
   dvec3 w;
-  double e;
-  glm::dvec2 gradient;
+  double e;             // sigma - q
+  glm::dvec2 gradient;  // of e, by the weights 1 and 2
 };
 
 Sample sample(const PatchData& patch, const DisplacementQuadratic& q, const dvec3& w) {
@@ -110,23 +117,24 @@ Sample sample(const PatchData& patch, const DisplacementQuadratic& q, const dvec
            sigma.v - 2.0 * q.blossom(w, {-1.0, 0.0, 1.0})}};
 }
 
-std::vector<Sample> samples_of(const PatchData& patch, const SubTriangle& part,
+std::vector<Sample> samples_of(const PatchData& patch, const SubTriangle& sub_triangle,
                                const DisplacementQuadratic& q) {
   std::vector<Sample> samples;
   for (int i = 0; i <= kSamples; ++i) {
     for (int j = 0; i + j <= kSamples; ++j) {
       const dvec3 l = dvec3(kSamples - i - j, i, j) / static_cast<double>(kSamples);
-      samples.push_back(sample(patch, q, part.origin + l * part.size));
+      samples.push_back(sample(patch, q, in_double::weights_of(sub_triangle, l)));
     }
   }
   return samples;
 }
 
-// The largest change of the gradient between neighbours of samples_of, those farther away having
-// been seen in steps, over their distance in weights of the part.
+// The largest change of the gradient between neighbours of samples_of, over their distance in
+// weights within the sub-triangle. Between samples farther apart the gradient changes in such
+// steps.
 double steepest_change(const std::vector<Sample>& samples) {
   double steepest = 0.0;
-  // Row i begins where the shorter ones before it end.
+  // The rows are stored one after the other; row i has kSamples + 1 - i samples.
   const auto at = [&](int i, int j) -> const Sample& {
     const int row = i * (kSamples + 1) - i * (i - 1) / 2;
     return samples[static_cast<std::size_t>(row) + static_cast<std::size_t>(j)];
@@ -146,66 +154,73 @@ double steepest_change(const std::vector<Sample>& samples) {
   return steepest;
 }
 
-// Raises `stray` to how far S_u and S_v are from the cage's at the sample.
-void raise_tangent_error(const PatchData& patch, const Sample& a, double& position_error) {
-  const dvec3 D = in_double::weigh(a.w, patch.corners.D[0], patch.corners.D[1], patch.corners.D[2]);
-  max_propagating_nan(position_error, glm::length(D * a.gradient.x +
-                                                  (patch.corners.D[1] - patch.corners.D[0]) * a.e));
-  max_propagating_nan(position_error, glm::length(D * a.gradient.y +
-                                                  (patch.corners.D[2] - patch.corners.D[0]) * a.e));
+// Raises tangent_error to the distance of S_u and S_v at the sample from those of T + q D.
+void raise_tangent_error(const PatchData& patch, const Sample& a, double& tangent_error) {
+  const auto& D = patch.corners.D;
+  const dvec3 at = weigh(a.w, D);
+  max_propagating_nan(tangent_error, glm::length(at * a.gradient.x + (D[1] - D[0]) * a.e));
+  max_propagating_nan(tangent_error, glm::length(at * a.gradient.y + (D[2] - D[0]) * a.e));
 }
 
-// Whether sigma may have a kink over a part, as far as so many divisions tell.
-bool may_be_nonsmooth(const PatchData& patch, const Part& part, int divisions) {
-  if (sphere_is_smooth(patch.ranges, part)) return false;
+// Whether sigma may be nonsmooth over a sub-triangle, as far as so many divisions tell.
+bool may_be_nonsmooth(const PatchData& patch, const SubTriangle& sub_triangle, int divisions) {
+  if (sphere_is_smooth(patch.corners, corner_weights(sub_triangle))) return false;
   if (divisions == 0) return true;
-  const auto quarters = quarter(part);
-  return std::any_of(quarters.begin(), quarters.end(), [&](const Part& piece) {
+  const auto quarters = quarter(sub_triangle);
+  return std::any_of(quarters.begin(), quarters.end(), [&](const SubTriangle& piece) {
     return may_be_nonsmooth(patch, piece, divisions - 1);
   });
 }
 
-void add_pieces(const PatchData& patch, const Part& part, int divisions,
+void add_pieces(const PatchData& patch, const SubTriangle& sub_triangle, int divisions,
                 std::vector<RangedPiece>& pieces) {
   if (divisions > 0) {
-    for (const Part& piece : quarter(part)) add_pieces(patch, piece, divisions - 1, pieces);
+    for (const SubTriangle& piece : quarter(sub_triangle)) {
+      add_pieces(patch, piece, divisions - 1, pieces);
+    }
     return;
   }
-  const PartCorners corners = corners_of(patch.ranges, part);
-  pieces.push_back({part, corners, sphere_sigma_range(patch.ranges, part, corners)});
+  const CornerWeights weights = corner_weights(sub_triangle);
+  const PartCorners corners = corners_of(patch.corners, weights);
+  pieces.push_back({weights, corners, sphere_sigma_range(patch.corners, weights, corners)});
 }
 
-// The most by which S strays from T + q D over a piece, proven.
+// A proven bound on the distance of S from T + q D over a piece: the ranges of sigma and of q, from
+// its Bernstein coefficients, give that of sigma - q.
 double proven_position_error(const DisplacementQuadratic& q, const RangedPiece& piece) {
   if (!piece.sigma) return kInfinity;
-  Interval quadratic = q.blossom(piece.part[0], piece.part[0]);
+  const CornerWeights& w = piece.weights;
+  Interval quadratic = q.blossom(w[0], w[0]);
   for (std::size_t i = 0; i < 3; ++i) {
-    quadratic = hull(quadratic, q.blossom(piece.part[i], piece.part[i]));
-    quadratic = hull(quadratic, q.blossom(piece.part[i], piece.part[(i + 1) % 3]));
+    quadratic = hull(quadratic, q.blossom(w[i], w[i]));
+    quadratic = hull(quadratic, q.blossom(w[i], w[(i + 1) % 3]));
   }
   const Interval e = *piece.sigma - quadratic;
   return std::max(-e.lo, e.hi) * longest_of(piece.corners.D);
 }
 
-// The quadratic of a part of the sphere surface that may have a kink.
-Fit nonsmooth_fit(const PatchData& patch, const SubTriangle& part, Fit fit, double rounded) {
+// The fit for a subpatch of the sphere surface that may be nonsmooth: only the position error is
+// bounded. `rounded`: the position error from rounding the quadratic.
+Fit nonsmooth_fit(const PatchData& patch, const SubTriangle& sub_triangle, Fit fit,
+                  double rounded) {
   constexpr double most = std::numeric_limits<float>::max();
-  add_pieces(patch, corners_of(enlarged(part, OVERLAP)), kProofDivisions, fit.pieces);
+  add_pieces(patch, in_double::with_overlap(sub_triangle), kProofDivisions, fit.pieces);
   double position_error = 0.0;
-  for (const RangedPiece& piece : fit.pieces)
+  for (const RangedPiece& piece : fit.pieces) {
     max_propagating_nan(position_error, proven_position_error(fit.q, piece));
+  }
   fit.position_error = std::isfinite(position_error) ? position_error + rounded : most;
   fit.tangent_error = most;
   fit.gradient_lipschitz = NONSMOOTH;
   return fit;
 }
 
-Fit fit(const PatchData& patch, const SubTriangle& part) {
+Fit fit(const PatchData& patch, const SubTriangle& sub_triangle) {
   const bool cubic = in_double::is_cubic(patch.shape);
   Fit fit;
-  // Of a cubic patch as the kernels have it from the triangle, to the bit.
+  // A cubic patch has its sigma for quadratic, with the coefficients that the kernels compute.
   fit.q = cubic ? DisplacementQuadratic{dvec3(0.0), dvec3(patch.bulges) * 0.5}
-                : through(part, [&](const dvec3& w) {
+                : through(sub_triangle, [&](const dvec3& w) {
                     return in_double::displacement(patch.shape, patch.tri, w);
                   });
   const double longest_D = longest_of(patch.corners.D);
@@ -219,22 +234,21 @@ Fit fit(const PatchData& patch, const SubTriangle& part) {
     return fit;
   }
   if (patch.shape.surface == SURFACE_SPHERE &&
-      may_be_nonsmooth(patch, corners_of(enlarged(part, CONE_MARGIN)), kProofDivisions)) {
-    return nonsmooth_fit(patch, part, fit, rounded);
+      may_be_nonsmooth(patch, in_double::enlarged(sub_triangle, CONE_MARGIN), kProofDivisions)) {
+    return nonsmooth_fit(patch, sub_triangle, fit, rounded);
   }
-  const SubTriangle large = enlarged(part, OVERLAP);
+  const SubTriangle large = in_double::with_overlap(sub_triangle);
   const std::vector<Sample> samples = samples_of(patch, large, fit.q);
   for (const Sample& a : samples) {
-    const dvec3 D =
-        in_double::weigh(a.w, patch.corners.D[0], patch.corners.D[1], patch.corners.D[2]);
-    max_propagating_nan(fit.position_error, glm::length(D) * std::abs(a.e));
+    const double D = glm::length(weigh(a.w, patch.corners.D));
+    max_propagating_nan(fit.position_error, D * std::abs(a.e));
     raise_tangent_error(patch, a, fit.tangent_error);
   }
   max_propagating_nan(fit.gradient_lipschitz,
                       steepest_change(samples) / std::abs(large.size) * longest_D);
-  const auto widened = [&](double position_error) {
-    return std::isfinite(position_error) ? position_error * kBetweenSamples + rounded
-                                         : static_cast<double>(std::numeric_limits<float>::max());
+  const auto widened = [&](double error) {
+    return std::isfinite(error) ? error * kBetweenSamples + rounded
+                                : static_cast<double>(std::numeric_limits<float>::max());
   };
   fit.position_error = widened(fit.position_error);
   fit.tangent_error = widened(fit.tangent_error);
@@ -242,12 +256,12 @@ Fit fit(const PatchData& patch, const SubTriangle& part) {
   return fit;
 }
 
-// The ball around a part, its overlap with the next ones included.
-Ball part_ball(const PatchData& patch, const SubTriangle& part, const Fit& fit) {
+// The ball around a subpatch and its overlap with the neighbours.
+Ball subpatch_ball(const PatchData& patch, const SubTriangle& sub_triangle, const Fit& fit) {
   std::vector<Ball> points;
-  // Around a part with a kink its pieces' corners displaced by the least and the largest sigma:
-  // closer than the part's quadratic where directions are long.
-  for (const auto& [piece, corners, sigma] : fit.pieces) {
+  // Of a nonsmooth subpatch the corners of its pieces, displaced by the least and by the largest
+  // sigma: where directions are long they are closer than the control points and position_error.
+  for (const auto& [weights, corners, sigma] : fit.pieces) {
     if (!sigma) {
       points.push_back({dvec3(patch.tri.Domain), patch.tri.Domain.w});
       continue;
@@ -258,7 +272,8 @@ Ball part_ball(const PatchData& patch, const SubTriangle& part, const Fit& fit) 
     }
   }
   if (fit.pieces.empty()) {
-    for (const dvec3& point : net_of(patch.corners, enlarged(part, OVERLAP), fit.q)) {
+    const SubTriangle large = in_double::with_overlap(sub_triangle);
+    for (const dvec3& point : control_points(patch.corners, fit.q, large)) {
       points.push_back({point, fit.position_error});
     }
   }
@@ -267,33 +282,40 @@ Ball part_ball(const PatchData& patch, const SubTriangle& part, const Fit& fit) 
   return ball;
 }
 
-// The most by which a matrix lengthens a vector.
+// The spectral norm, the most by which a matrix lengthens a vector.
 double norm_of(const glm::dmat2& m) {
-  // Half the sum and half the difference of its singular values.
+  // Half the sum of its singular values plus half their difference.
   return 0.5 * (std::hypot(m[0][0] + m[1][1], m[0][1] - m[1][0]) +
                 std::hypot(m[0][0] - m[1][1], m[0][1] + m[1][0]));
 }
 
-// How far S_u and S_v stray over an enlarged part from those of its cage.
-double tangents_error(const PatchData& patch, const SubTriangle& part, const Fit& fit) {
+// Fit::tangent_error for an enlarged sub-triangle.
+double tangent_error_over(const PatchData& patch, const SubTriangle& large, const Fit& fit) {
   if (fit.gradient_lipschitz == 0.0) return fit.tangent_error;
   double most = 0.0;
-  for (const Sample& a : samples_of(patch, part, fit.q)) raise_tangent_error(patch, a, most);
+  for (const Sample& a : samples_of(patch, large, fit.q)) raise_tangent_error(patch, a, most);
   return std::max(kBetweenSamples * most, fit.tangent_error);
 }
 
-// SubpatchBounds::cone. S_u and S_v at a point are the same convex combination of the control
-// vectors u_i and v_i; so is their mean along a line from one point to another, with which S
-// differs between them. Seen along a direction d, on the tangent plane with normal n and mean
-// tangents M0, that mean is M0 (1 + E - t g^T), t the tangent of the angle between d and n, E and g
-// those of (u_i, v_i): it is one to one if |E| + t |g| < 1 for all i.
-vec4 normal_cone(const PatchData& patch, const SubTriangle& part, const Fit& fit) {
-  const SubTriangle large = enlarged(part, CONE_MARGIN);
-  const ControlNet b = net_of(patch.corners, large, fit.q);
-  const std::array<dvec3, 6> u{b[3] - b[0], b[1] - b[4], b[6] - b[7],
-                               b[4] - b[3], b[9] - b[8], b[5] - b[9]};
-  const std::array<dvec3, 6> v{b[8] - b[0], b[5] - b[4], b[2] - b[7],
-                               b[9] - b[3], b[7] - b[8], b[6] - b[9]};
+// SubpatchBounds::cone: the directions along which the enlarged subpatch projects one to one.
+//
+// S_u and S_v at a point are the same convex combination of the control vectors u_i and v_i. So is
+// their mean on the way from one point to another, by which S differs between the two. n is the
+// normal of the plane of the mean control vectors, M0 = (mean u, mean v) in that plane. Projected
+// on it along a direction d, the mean between two points is (1 + E - t g^T) M0: E and g are convex
+// combinations of the E_i and g_i below, from the parts of (u_i, v_i) in the plane and along n, and
+// the length of the vector t is the tangent of the angle between d and n. If |E_i| + |t| |g_i| < 1
+// for all i the mean is invertible, so no two points fall together. This is the contraction test of
+// shaders/subpatch_bounds.glsl for all directions at once. It is a proof for the cubic T + q D; the
+// tangent error of surfaces that are not cubic comes from samples.
+//
+// The cone is used like a cone of normals (Shirman & Abi-Ezzi 1993, "The cone of normals technique
+// for fast processing of curved patches") but is another thing: that contains the directions of
+// S_u x S_v, so that a line along which all of them look the same way crosses the surface in one
+// sense only. Two points far apart may still be on one such line; here they cannot.
+vec4 normal_cone(const PatchData& patch, const SubTriangle& sub_triangle, const Fit& fit) {
+  const SubTriangle large = in_double::enlarged(sub_triangle, CONE_MARGIN);
+  const auto [u, v] = tangent_net(patch.corners, fit.q, large);
   dvec3 mean_u(0.0);
   dvec3 mean_v(0.0);
   for (std::size_t i = 0; i < 6; ++i) {
@@ -305,39 +327,41 @@ vec4 normal_cone(const PatchData& patch, const SubTriangle& part, const Fit& fit
   const dvec3 y = glm::cross(n, x);
   const auto in_plane = [&](const dvec3& a) { return glm::dvec2(glm::dot(a, x), glm::dot(a, y)); };
   const glm::dmat2 inverse = glm::inverse(glm::dmat2(in_plane(mean_u), in_plane(mean_v)));
-  const double position_error = tangents_error(patch, large, fit) * std::abs(large.size) / 3.0 *
-                                std::sqrt(2.0) * norm_of(inverse);
-  // The largest |g| / (1 - |E|): the cotangent of the smallest angle with n that is too large.
+  // By the weights within the sub-triangle, over 3, as the control vectors are; of both columns.
+  const double tangent_error = tangent_error_over(patch, large, fit) * std::abs(large.size) / 3.0 *
+                               std::sqrt(2.0) * norm_of(inverse);
+  // The largest |g| / (1 - |E|), the cotangent of the smallest angle between d and n that is too
+  // large.
   double flattest = 0.0;
   for (std::size_t i = 0; i < 6; ++i) {
     const glm::dmat2 change =
         glm::dmat2(in_plane(u[i]), in_plane(v[i])) * inverse - glm::dmat2(1.0);
-    const double room = 1.0 - norm_of(change) - position_error;
-    // Written so that a NaN has no cone.
+    const double room = 1.0 - norm_of(change) - tangent_error;
+    // Written so that a NaN gives no cone.
     if (!(room > 0.0)) return kNoCone;
-    const double gradient_lipschitz =
-        glm::length(glm::dvec2(glm::dot(u[i], n), glm::dot(v[i], n)) * inverse) + position_error;
-    max_propagating_nan(flattest, gradient_lipschitz / room);
+    const double rise =
+        glm::length(glm::dvec2(glm::dot(u[i], n), glm::dot(v[i], n)) * inverse) + tangent_error;
+    max_propagating_nan(flattest, rise / room);
   }
   constexpr double narrowest = 10.0;
   if (!(flattest < narrowest)) return kNoCone;
-  // Of the ray's direction and the axis in single precision.
+  // For the rounding of the ray's direction and of n to single precision.
   constexpr double rounding = 1e-5;
   return {glm::vec3(n), static_cast<float>(flattest / std::hypot(flattest, 1.0) + rounding)};
 }
 
-SubpatchBounds bounds_of(const PatchData& patch, const SubTriangle& part, const Fit& fit,
+SubpatchBounds bounds_of(const PatchData& patch, const SubTriangle& sub_triangle, const Fit& fit,
                          uint32_t triangle) {
   SubpatchBounds bounds{};
-  // That of the whole patch, and of a part whose bounds are none.
+  // The patch's ball unless the subpatch has a smaller one.
   bounds.ball = vec4(patch.tri.Domain);
-  if (part.size < 1.0) {
-    const Ball ball = part_ball(patch, part, fit);
+  if (sub_triangle.size < 1.0) {
+    const Ball ball = subpatch_ball(patch, sub_triangle, fit);
     if (ball.radius < patch.tri.Domain.w) {
       bounds.ball = vec4(glm::vec3(ball.center), rounded_up(ball.radius));
     }
   }
-  bounds.sub_triangle = vec4(glm::vec3(part.origin), static_cast<float>(part.size));
+  bounds.sub_triangle = vec4(glm::vec3(sub_triangle.origin), static_cast<float>(sub_triangle.size));
   bounds.corner = vec4(glm::vec3(fit.q.corner), rounded_up(fit.position_error));
   bounds.edge = vec4(glm::vec3(fit.q.edge), rounded_up(fit.tangent_error));
   bounds.cone = kNoCone;
@@ -349,30 +373,28 @@ SubpatchBounds bounds_of(const PatchData& patch, const SubTriangle& part, const 
   const double displacement =
       std::max({most.x, most.y, most.z}) * longest_of(patch.corners.D) + fit.position_error;
   const bool no_displacement = displacement <= nothing * patch.tri.TriNormal.w;
-  // The kernel meets the patch's plane, whatever the part: only the whole may be it.
-  bounds.is_flat = no_displacement && part.size == 1.0 ? 1 : 0;
+  // The kernel takes a flat subpatch for the whole triangle, so only an undivided patch may be one.
+  bounds.is_flat = no_displacement && sub_triangle.size == 1.0 ? 1 : 0;
   return bounds;
 }
 
-void bound_subpatch(const PatchData& patch, const SubTriangle& part, int level, uint32_t triangle,
-                    std::vector<SubpatchBounds>& subpatches) {
-  const Fit found = fit(patch, part);
-  const double size = patch.tri.TriNormal.w * std::abs(part.size);
+// Appends the bounds of a sub-triangle and, if it is divided, those of its children after it.
+void bound_subpatch(const PatchData& patch, const SubTriangle& sub_triangle, int level,
+                    uint32_t triangle, std::vector<SubpatchBounds>& subpatches) {
+  const Fit found = fit(patch, sub_triangle);
+  const double size = patch.tri.TriNormal.w * std::abs(sub_triangle.size);
   const bool close = found.position_error <= kClose * size &&
                      found.tangent_error <= kTangentsClose * patch.tri.TriNormal.w;
   const std::size_t index = subpatches.size();
-  subpatches.push_back(bounds_of(patch, part, found, triangle));
-  const bool kinked = subpatches[index].gradient_lipschitz == NONSMOOTH;
+  subpatches.push_back(bounds_of(patch, sub_triangle, found, triangle));
+  const bool nonsmooth = subpatches[index].gradient_lipschitz == NONSMOOTH;
   if (close || level == kMostLevels) {
-    if (!kinked) subpatches[index].cone = normal_cone(patch, part, found);
+    if (!nonsmooth) subpatches[index].cone = normal_cone(patch, sub_triangle, found);
     if (subpatches[index].cone.w <= kWide || level >= kLevelsForCones) return;
   }
-  const double half = part.size * 0.5;
-  for (int k = 0; k < 3; ++k) {
-    bound_subpatch(patch, {part.origin + corner_weights(k) * half, half}, level + 1, triangle,
-                   subpatches);
+  for (const SubTriangle& child : quarter(sub_triangle)) {
+    bound_subpatch(patch, child, level + 1, triangle, subpatches);
   }
-  bound_subpatch(patch, {part.origin + dvec3(half), -half}, level + 1, triangle, subpatches);
   subpatches[index].skip = static_cast<uint32_t>(subpatches.size() - index - 1);
 }
 
@@ -391,15 +413,15 @@ bool has_nonsmooth(const BakedScene& scene) {
 }
 
 std::vector<SubpatchBounds> bake_subpatches(const BakedScene& scene) {
-  // A patch with kinks takes some hundredths of a second.
+  // Small chunks: a patch with nonsmooth subpatches takes some hundredths of a second.
   constexpr std::size_t size = 16;
   std::vector<std::vector<SubpatchBounds>> chunks(scene.triangles.size() / size + 1);
   parallel_chunks(scene.triangles.size(), size, [&](std::size_t first, std::size_t end) {
     std::vector<SubpatchBounds>& subpatches = chunks[first / size];
     subpatches.reserve(end - first);
     for (std::size_t t = first; t < end; ++t) {
-      bound_subpatch(patch_of(scene.choice, scene.triangles[t]), {}, 0, static_cast<uint32_t>(t),
-                     subpatches);
+      bound_subpatch(patch_data(scene.choice, scene.triangles[t]), kWholeTriangle, 0,
+                     static_cast<uint32_t>(t), subpatches);
     }
   });
   std::vector<SubpatchBounds> subpatches;

@@ -2,28 +2,28 @@
 
 #include <limits>
 
-#include "app/bake/control_net.h"
 #include "app/base/parallel_rows.h"
 #include "app/base/rounding.h"
-#include "app/surface/to_double.h"
+#include "app/surface/control_net.h"
 
 namespace trisect {
 namespace {
 
 using glm::dvec3;
 
-SubpatchBox subpatch_box(const Triangle& single, const SubpatchBounds& bounds, uint shell,
+SubpatchBox subpatch_box(const Triangle& tri, const SubpatchBounds& bounds, uint shell,
                          double slack) {
-  const in_double::Triangle tri = to_double(single);
-  const SubTriangle subpatch{dvec3(glm::vec3(bounds.sub_triangle)), bounds.sub_triangle.w};
+  const in_double::SubTriangle sub_triangle{dvec3(bounds.sub_triangle), bounds.sub_triangle.w};
   const DisplacementQuadratic q{dvec3(glm::vec3(bounds.corner)), dvec3(glm::vec3(bounds.edge))};
   dvec3 lo(std::numeric_limits<double>::max());
   dvec3 hi = -lo;
-  for (const dvec3& point : net_of(corners_of(tri, shell), enlarged(subpatch, OVERLAP), q)) {
+  for (const dvec3& point :
+       control_points(patch_of(shell, tri), q, in_double::with_overlap(sub_triangle))) {
     lo = glm::min(lo, point);
     hi = glm::max(hi, point);
   }
-  // Where the quadratic is a poor bound, or none, the part's ball is one.
+  // The box lies in that of the ball, too: where the quadratic bounds poorly, or not at all, the
+  // ball does.
   const dvec3 middle(bounds.ball);
   const dvec3 position_error(bounds.corner.w);
   lo = glm::max(lo - position_error, middle - dvec3(bounds.ball.w)) - dvec3(slack);

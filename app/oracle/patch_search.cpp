@@ -17,29 +17,20 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 
-// A part at this depth is a 4096th of the edges: what folds or fails to converge there is left.
+// At this depth, where edges have a 4096th of the patch's, a sub-triangle is not divided further
+// even if it folds or Newton's iteration finds nothing.
 constexpr int kDeepest = 12;
-// From this depth on, a part whose enclosure does not shrink with it is left too.
+// Nor is one from this depth on whose enclosure is much larger than itself.
 constexpr int kTornDepth = 7;
-// Sampled tangents are trusted from this depth on.
+// Balls around sampled tangents are trusted from this depth on.
 constexpr int kTrustSamples = 2;
-// A root may lie outside the triangle by this weight: the neighbour's rounding.
+// A root may lie outside the triangle by this weight, so that rounding loses none on a shared edge.
 constexpr double kOutside = 1e-12;
-// Of the scale of the scene about the line: some hundred roundings of coordinates.
+// A root's distance from the line, over the largest coordinate seen from the line's origin: some
+// hundred roundings.
 constexpr double kResidual = 1e-13;
 // Relative, of a tangent: more than a hundred roundings.
 constexpr double kTangentRounding = 1e-12;
-
-// The weights within a part of the point with weights w; its corners in the triangle's weights.
-dvec3 weights_within(const Part& part, const dvec3& w) {
-  const dvec2 a(part[1].y - part[0].y, part[1].z - part[0].z);
-  const dvec2 b(part[2].y - part[0].y, part[2].z - part[0].z);
-  const dvec2 x(w.y - part[0].y, w.z - part[0].z);
-  const double area = a.x * b.y - a.y * b.x;
-  const double u = (x.x * b.y - x.y * b.x) / area;
-  const double v = (a.x * x.y - a.y * x.x) / area;
-  return {1.0 - u - v, u, v};
-}
 
 double least(const dvec3& w) {
   return std::min({w.x, w.y, w.z});
@@ -53,9 +44,8 @@ double half_width(const Interval& a) {
   return (a.hi - a.lo) * 0.5;
 }
 
-// The mean of a quadratic's six values and the distance from it of its farthest Bernstein
-// coefficient: a ball that holds the quadratic. Values at the corners, then amid the edges 01
-// 12 20.
+// A ball that holds a quadratic, given its values at the corners and then at the midpoints of the
+// edges 01 12 20: around the mean of its Bernstein coefficients, out to the farthest of them.
 std::pair<dvec3, double> ball_of_quadratic(std::array<dvec3, 6> values) {
   for (std::size_t i = 0; i < 3; ++i) {
     values[i + 3] = values[i + 3] * 2.0 - (values[i] + values[(i + 1) % 3]) * 0.5;
@@ -72,8 +62,8 @@ std::pair<dvec3, double> ball_of_quadratic(std::array<dvec3, 6> values) {
   return {center, radius};
 }
 
-// Near a fold Newton's iterates agree with a double root to half their digits only; two roots on
-// the same side of the surface that are this near are one.
+// Whether two iterations ended at one root. Near a fold, a double root, Newton's iterates have half
+// of their digits only, so roots that see the same side of the surface may be farther apart.
 bool same_root(const PatchFindings::Root& a, const PatchFindings::Root& b, const dvec3& direction) {
   const bool same_side =
       (glm::dot(a.normal, direction) < 0.0) == (glm::dot(b.normal, direction) < 0.0);
@@ -105,7 +95,7 @@ struct PatchSearch::Query {
   const Line& line;
   double t_min;
   double t_max;
-  double residual;  // of a root, distance from the line
+  double residual;  // a root's distance from the line at most
 };
 
 PatchSearch::PatchSearch(const SurfaceChoice& choice, const Triangle& tri, int levels)
@@ -128,7 +118,9 @@ PatchSearch::PatchSearch(const SurfaceChoice& choice, const Triangle& tri, int l
   for (int level = 0; level < levels; ++level) {
     const std::size_t last = nodes_.size();
     for (; first < last; ++first) {
-      for (const Part& part : quarter(nodes_[first].part)) nodes_.push_back(node_of(part));
+      for (const in_double::SubTriangle& below : quarter(nodes_[first].sub_triangle)) {
+        nodes_.push_back(node_of(below));
+      }
     }
   }
 }
@@ -142,22 +134,24 @@ PatchSearch::Point PatchSearch::evaluate(const dvec3& w) const {
           patch_.P[2] - patch_.P[0] + D * sigma.v + (patch_.D[2] - patch_.D[0]) * sigma.s};
 }
 
-PatchSearch::Node PatchSearch::node_of(const Part& part) const {
+PatchSearch::Node PatchSearch::node_of(const in_double::SubTriangle& sub_triangle) const {
   Node node{};
-  node.part = part;
-  node.enclosure = enclose(choice_, patch_, part);
-  node.tangents = tangents_of(part);
-  // The others' own enclosure is of second order already.
+  node.sub_triangle = sub_triangle;
+  node.enclosure = enclose(choice_, patch_, sub_triangle);
+  node.tangents = tangents_of(sub_triangle);
+  // For the other surfaces enclose() is of second order in the size already.
   if (choice_.surface == SURFACE_SPHERE && node.tangents.proven) {
-    node.tangent_enclosure = enclose_by_tangents(part, node.tangents);
+    node.tangent_enclosure = enclose_by_tangents(sub_triangle, node.tangents);
   }
   return node;
 }
 
-PatchSearch::Tangents PatchSearch::tangents_of(const Part& part) const {
+PatchSearch::Tangents PatchSearch::tangents_of(const in_double::SubTriangle& sub_triangle) const {
+  const CornerWeights weights = corner_weights(sub_triangle);
   if (choice_.surface == SURFACE_SPHERE) {
-    const PartCorners corners = corners_of(patch_, part);
-    if (const auto sigma = sphere_derivative_ranges(patch_, part, corners)) {
+    const PartCorners corners = corners_of(patch_, weights);
+    if (const auto sigma = sphere_derivative_ranges(patch_, weights, corners)) {
+      // S_u = dT + D sigma_u + dD sigma, each factor a middle and what it may differ from it.
       const dvec3 D = (corners.D[0] + corners.D[1] + corners.D[2]) / 3.0;
       double turn = 0.0;
       for (const dvec3& corner : corners.D) turn = std::max(turn, glm::distance(D, corner));
@@ -179,8 +173,8 @@ PatchSearch::Tangents PatchSearch::tangents_of(const Part& part) const {
   std::array<dvec3, 6> S_u{};
   std::array<dvec3, 6> S_v{};
   for (std::size_t i = 0; i < 3; ++i) {
-    const Point corner = evaluate(part[i]);
-    const Point amid = evaluate((part[i] + part[(i + 1) % 3]) * 0.5);
+    const Point corner = evaluate(weights[i]);
+    const Point amid = evaluate((weights[i] + weights[(i + 1) % 3]) * 0.5);
     S_u[i] = corner.S_u;
     S_v[i] = corner.S_v;
     S_u[i + 3] = amid.S_u;
@@ -190,21 +184,24 @@ PatchSearch::Tangents PatchSearch::tangents_of(const Part& part) const {
   tangents.proven = quadratic_tangents_;
   std::tie(tangents.S_u, tangents.radius_u) = ball_of_quadratic(S_u);
   std::tie(tangents.S_v, tangents.radius_v) = ball_of_quadratic(S_v);
-  const double to_double = tangents.proven ? 1.0 : 1.5;
+  const double between_samples = tangents.proven ? 1.0 : 1.5;
   const double slack = kTangentRounding * (glm::length(tangents.S_u) + glm::length(tangents.S_v));
-  tangents.radius_u = tangents.radius_u * to_double + slack;
-  tangents.radius_v = tangents.radius_v * to_double + slack;
+  tangents.radius_u = tangents.radius_u * between_samples + slack;
+  tangents.radius_v = tangents.radius_v * between_samples + slack;
   return tangents;
 }
 
-// S(w) = S(c) + a du + b dv with means a, b of the tangents between c and w.
-Enclosure PatchSearch::enclose_by_tangents(const Part& part, const Tangents& tangents) const {
-  const dvec3 center = (part[0] + part[1] + part[2]) / 3.0;
+// S(w) = S(c) + a du + b dv, c the centre, a and b means of S_u and S_v between c and w. `tangents`
+// must be proven for the sub-triangle.
+Enclosure PatchSearch::enclose_by_tangents(const in_double::SubTriangle& sub_triangle,
+                                           const Tangents& tangents) const {
+  const CornerWeights weights = corner_weights(sub_triangle);
+  const dvec3 center = in_double::centre_of(sub_triangle);
   const dvec3 S = in_double::surface_point(shape_, tri_, center);
   Enclosure e{};
   e.count = 3;
   for (std::size_t k = 0; k < 3; ++k) {
-    const dvec3 d = part[k] - center;
+    const dvec3 d = weights[k] - center;
     e.points[k] = S + tangents.S_u * d.y + tangents.S_v * d.z;
     e.radius =
         std::max(e.radius, tangents.radius_u * std::abs(d.y) + tangents.radius_v * std::abs(d.z));
@@ -221,8 +218,8 @@ void PatchSearch::roots(const Line& line, double t_min, double t_max,
   visit(nodes_[0], 0, 0, {line, t_min, t_max, kResidual * scale}, findings);
 }
 
-// The least t at which an enclosed part may meet the line; nothing if it does not, or only comes
-// within the margin of it, which is noted.
+// The least t at which the enclosed surface may meet the line. Nothing if it does not, or if it
+// only may come within the margin of the line, which goes into findings.doubt_t.
 std::optional<double> PatchSearch::meet(const Enclosure& enclosure, const Query& query,
                                         PatchFindings& findings) {
   const Line& line = query.line;
@@ -239,8 +236,9 @@ std::optional<double> PatchSearch::meet(const Enclosure& enclosure, const Query&
   return std::nullopt;
 }
 
-// Where a normal shell's direction vanishes or turns over the sphere surface jumps by up to the
-// longest edge: no division makes such a part small.
+// Whether an enclosure is much larger than the sub-triangle. Where the normal shell's direction
+// vanishes or turns over, the sphere surface jumps by up to the longest edge: no division makes the
+// surface over such a sub-triangle small.
 bool PatchSearch::is_torn(const Enclosure& enclosure, int depth) const {
   constexpr double most = 16.0;
   double width = 0.0;
@@ -256,9 +254,9 @@ void PatchSearch::visit(const Node& node, std::size_t index, int depth, const Qu
   if (!t) return;
   if (node.tangent_enclosure.count > 0 && !meet(node.tangent_enclosure, query, findings)) return;
 
-  // The map across the line does not fold if d.(a x b) keeps its sign for every a about S_u and b
-  // about S_v: the difference of two of its values is then a mean of such a, b times the difference
-  // of w.
+  // The projection along the line, of direction d, is one to one if d.(a x b) keeps its sign for
+  // every a in the ball about S_u and b in that about S_v: two of its values differ by such an a
+  // and b, means of S_u and S_v between the two, times the differences of the weights.
   const auto& [S_u, S_v, radius_u, radius_v, proven] = node.tangents;
   const dvec3& d = line.direction;
   const double turn = std::abs(glm::dot(d, glm::cross(S_u, S_v)));
@@ -266,13 +264,13 @@ void PatchSearch::visit(const Node& node, std::size_t index, int depth, const Qu
                         radius_v * glm::length(glm::cross(d, S_u)) + radius_u * radius_v;
   if (turn > spread && (proven || depth >= kTrustSamples)) {
     PatchFindings::Root root{};
-    root.weights = (node.part[0] + node.part[1] + node.part[2]) / 3.0;
-    const double size =
-        std::abs(node.part[1].y - node.part[0].y) + std::abs(node.part[1].z - node.part[0].z);
-    // Some slack: a root that rounding puts beside this part is not worth looking for further.
+    root.weights = in_double::centre_of(node.sub_triangle);
+    const double size = std::abs(node.sub_triangle.size);
+    // A root that rounding puts just beside the sub-triangle is taken, too: dividing would not find
+    // another.
     constexpr double beside = 1e-6;
     if (newton(query, 4.0 * size, root) &&
-        least(weights_within(node.part, root.weights)) > -beside) {
+        least(in_double::weights_in(node.sub_triangle, root.weights)) > -beside) {
       record(root, line, findings);
       return;
     }
@@ -287,18 +285,21 @@ void PatchSearch::visit(const Node& node, std::size_t index, int depth, const Qu
       visit(nodes_[child + k], child + k, depth + 1, query, findings);
     }
   } else {
-    // The parent's tangents hold the part's: most parts are off the line by them already, at a
-    // tenth of the cost of their own ranges.
+    // The tangents of a sub-triangle hold its children's. By them alone most children are off the
+    // line, at a tenth of the cost of the children's own enclosures.
     const bool by_parent = choice_.surface == SURFACE_SPHERE && proven;
-    for (const Part& part : quarter(node.part)) {
-      if (by_parent && !meet(enclose_by_tangents(part, node.tangents), query, findings)) continue;
-      visit(node_of(part), nodes_.size(), depth + 1, query, findings);
+    for (const in_double::SubTriangle& below : quarter(node.sub_triangle)) {
+      if (by_parent && !meet(enclose_by_tangents(below, node.tangents), query, findings)) {
+        continue;
+      }
+      visit(node_of(below), nodes_.size(), depth + 1, query, findings);
     }
   }
 }
 
-// Newton's iteration from root.weights on the two coordinates across the line, steps halved until
-// they help. True if it ends in a root, of the surface beyond the triangle too.
+// Newton's iteration from root.weights on the two coordinates across the line, each step halved
+// until it brings the point nearer. True if it ends at a root, which may lie beyond the triangle's
+// border.
 bool PatchSearch::newton(const Query& query, double longest_step, PatchFindings::Root& root) const {
   const Line& line = query.line;
   const auto offset = [&](const Point& p) {
@@ -312,7 +313,7 @@ bool PatchSearch::newton(const Query& query, double longest_step, PatchFindings:
   dvec2 F = offset(p);
   bool polished = false;
   for (int i = 0; i < most_steps && !polished; ++i) {
-    // One more step from where the residual is met: it costs little and gives the last digits.
+    // One more step from a point that is near enough gives the last digits for little.
     polished = glm::length(F) <= query.residual;
     const dvec2 a(glm::dot(p.S_u, line.across[0]), glm::dot(p.S_u, line.across[1]));
     const dvec2 b(glm::dot(p.S_v, line.across[0]), glm::dot(p.S_v, line.across[1]));
@@ -340,13 +341,15 @@ bool PatchSearch::newton(const Query& query, double longest_step, PatchFindings:
   return std::isfinite(root.t) && std::isfinite(glm::dot(root.normal, root.normal));
 }
 
-// A part as small as they get that may fold: from each of its corners and its centre, Newton's
-// iteration may come to another root. Doubtful in any case, for t from `t` on.
+// For a sub-triangle that may fold and is not divided further: Newton's iteration from its centre
+// and from each of its corners, which may come to different roots. In doubt, from `t` on, in any
+// case.
 void PatchSearch::search_unresolved(const Node& node, double t, const Query& query,
                                     PatchFindings& findings) const {
   findings.doubt_t = std::min(findings.doubt_t, t);
-  const dvec3 center = (node.part[0] + node.part[1] + node.part[2]) / 3.0;
-  for (const dvec3& start : {center, node.part[0], node.part[1], node.part[2]}) {
+  const CornerWeights weights = corner_weights(node.sub_triangle);
+  const dvec3 center = in_double::centre_of(node.sub_triangle);
+  for (const dvec3& start : {center, weights[0], weights[1], weights[2]}) {
     PatchFindings::Root root{};
     root.weights = start;
     if (newton(query, 4.0 / (1 << kDeepest), root)) record(root, query.line, findings);

@@ -12,7 +12,8 @@
 
 namespace trisect {
 
-// A line with two axes across it; all three of unit length and at right angles.
+// A line, with two axes across it. The direction and the axes are of unit length and at right
+// angles.
 struct Line {
   glm::dvec3 origin;
   glm::dvec3 direction;
@@ -22,57 +23,60 @@ struct Line {
 // direction: of unit length.
 Line line_along(const glm::dvec3& origin, const glm::dvec3& direction);
 
-// What a search is asked for and what it found, over one or several patches.
+// What a search is to report and what it found. Call clear() before each search.
 struct PatchFindings {
   struct Root {
-    double t;
-    glm::dvec3 weights;
-    glm::dvec3 normal;  // S_u x S_v, unit length
+    double t;            // distance along the line from its origin
+    glm::dvec3 weights;  // of the vertices; down to -1e-12
+    glm::dvec3 normal;   // S_u x S_v, unit length
   };
 
   explicit PatchFindings(double margin_) : margin(margin_) {}
 
-  // Parts of a patch that come this near the line without meeting it are reported in `doubt_t`.
+  // Where the surface may come this near the line without meeting it is reported in `doubt_t`.
   double margin;
-  std::vector<Root> roots;  // of the patch searched last, in no order
-  // The least t at which a part may meet the line, or come within the margin of it, that yielded no
-  // root; infinite if there is none.
+  std::vector<Root> roots;  // in no order
+  // The least t at which the surface may meet the line, or come within the margin of it, without
+  // that a root was found there; infinite if there is none.
   double doubt_t;
   void clear();
 };
 
-// One patch and a tree of its parts with their enclosures.
+// One patch, and the first levels of a quadtree of its sub-triangles with their enclosures.
 //
-// The search divides the patch in four until a part's enclosure (proven, patch_range.h) is off the
-// line or the part projects across the line without folding, so that it holds one root at most and
-// Newton's iteration finds it or goes elsewhere. Whether it folds is told from balls around the
-// tangents S_u and S_v: exact for flat triangles and for phong in the normal shell, where they are
-// quadratic in w; from six samples, their spread taken half again, for the others.
+// The search divides the patch in four until a sub-triangle's enclosure (proven, patch_range.h) is
+// off the line, or the surface over the sub-triangle, projected along the line, does not fold: then
+// it holds one root at most, and Newton's iteration finds it or ends elsewhere. Whether it folds is
+// told from balls around the tangents S_u and S_v. They are proven for flat triangles and for phong
+// in the normal shell, whose tangents are quadratic in w, and for sub-triangles of the sphere
+// surface on which sphere_derivative_ranges bounds the derivatives of sigma; for the others their
+// radius is 1.5 times what six samples show.
 class PatchSearch {
  public:
-  // Keeps the enclosures of 4^levels parts and of those that they were made from.
+  // Keeps the enclosures of `levels` divisions: (4^(levels + 1) - 1) / 3, of some 800 bytes each.
   PatchSearch(const SurfaceChoice& choice, const Triangle& tri, int levels);
 
-  // Adds to `findings` every root with t between these.
+  // Adds to `findings` the roots on the patch, among them every one with t between these; some may
+  // lie beyond. Safe to call from several threads at a time, each with findings of its own.
   void roots(const Line& line, double t_min, double t_max, PatchFindings& findings) const;
 
   [[nodiscard]] double longest_edge() const { return patch_.longest; }
 
  private:
-  // Balls that hold S_u and S_v over a part.
+  // Balls that hold S_u and S_v over a sub-triangle.
   struct Tangents {
     glm::dvec3 S_u;
     glm::dvec3 S_v;
     double radius_u;
     double radius_v;
-    bool proven;  // else six samples' spread
+    bool proven;  // if not, the radii come from six samples
   };
   struct Node {
-    Part part;
+    in_double::SubTriangle sub_triangle;
     Enclosure enclosure;
     Tangents tangents;
-    // The mean value theorem's: S at the part's centre plus the tangents' span. None if they are
-    // not proven.
+    // By the mean value theorem: S at the centre and what the tangents add from there. Its count is
+    // 0 if it is not used.
     Enclosure tangent_enclosure;
   };
   struct Point {
@@ -82,9 +86,10 @@ class PatchSearch {
   };
   struct Query;
 
-  [[nodiscard]] Node node_of(const Part& part) const;
-  [[nodiscard]] Tangents tangents_of(const Part& part) const;
-  [[nodiscard]] Enclosure enclose_by_tangents(const Part& part, const Tangents& tangents) const;
+  [[nodiscard]] Node node_of(const in_double::SubTriangle& sub_triangle) const;
+  [[nodiscard]] Tangents tangents_of(const in_double::SubTriangle& sub_triangle) const;
+  [[nodiscard]] Enclosure enclose_by_tangents(const in_double::SubTriangle& sub_triangle,
+                                              const Tangents& tangents) const;
   [[nodiscard]] Point evaluate(const glm::dvec3& weights) const;
   [[nodiscard]] bool is_torn(const Enclosure& enclosure, int depth) const;
   static std::optional<double> meet(const Enclosure& enclosure, const Query& query,
@@ -99,7 +104,7 @@ class PatchSearch {
   Patch patch_;
   in_double::Shape shape_;
   in_double::Triangle tri_;
-  bool defined_;  // false: every S is NaN
+  bool defined_;  // false: vertices or directions are not finite, there is no surface
   bool quadratic_tangents_;
   std::vector<Node> nodes_;  // the children of node i are 4 i + 1 to 4 i + 4
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/surface/control_net.h"
 #include "app/surface/sphere_range.h"
 
 namespace trisect {
@@ -15,22 +16,24 @@ using glm::dvec3;
 // the magnitude that this is multiplied with; a rounding is 1.1e-16.
 constexpr double kRounding = 1e-13;
 
-// Bernstein coefficients over a part, of a quadratic: at the corners, then at the edges 01 12 20.
+// Bernstein coefficients of a quadratic over a sub-triangle: at the corners, then at the edges
+// 01 12 20.
 template <typename Value>
 using Quadratic = std::array<Value, 6>;
 
 constexpr std::size_t kEdgeOfCorners[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
 
-// sum_{i<j} w_i w_j q_ij, q in the order 01 12 20, over a part: its blossom at pairs of corners.
+// sum_{i<j} w_i w_j q_ij, q in the order 01 12 20, over a sub-triangle: its blossom at pairs of
+// corners.
 template <typename Value>
-Quadratic<Value> quadratic_over(const Part& part, const std::array<Value, 3>& q) {
+Quadratic<Value> quadratic_over(const CornerWeights& w, const std::array<Value, 3>& q) {
   const auto blossom = [&](const dvec3& a, const dvec3& b) {
     return (q[0] * (a.x * b.y + a.y * b.x) + q[1] * (a.y * b.z + a.z * b.y) +
             q[2] * (a.x * b.z + a.z * b.x)) *
            0.5;
   };
-  return {blossom(part[0], part[0]), blossom(part[1], part[1]), blossom(part[2], part[2]),
-          blossom(part[0], part[1]), blossom(part[1], part[2]), blossom(part[2], part[0])};
+  return {blossom(w[0], w[0]), blossom(w[1], w[1]), blossom(w[2], w[2]),
+          blossom(w[0], w[1]), blossom(w[1], w[2]), blossom(w[2], w[0])};
 }
 
 // The ten Bernstein coefficients of a quadratic times a linear function.
@@ -50,7 +53,7 @@ auto cubic_of(const Quadratic<Value>& q, const std::array<Linear, 3>& l, const P
   return coefficients;
 }
 
-// The flat part with a ball of `radius` about each of its points.
+// The flat sub-triangle with a ball of `radius` about each of its points.
 Enclosure around_base(const PartCorners& corners, double radius) {
   Enclosure e{};
   std::copy(corners.T.begin(), corners.T.end(), e.points.begin());
@@ -59,41 +62,31 @@ Enclosure around_base(const PartCorners& corners, double radius) {
   return e;
 }
 
-Enclosure enclose_cubic(const Patch& patch, const Part& part, const PartCorners& corners,
-                        double alpha) {
-  std::array<double, 3> bulge{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    bulge[i] = alpha * glm::dot(patch.P[j] - patch.P[i], patch.N[j] - patch.N[i]);
-  }
-  const auto& T = corners.T;
+Enclosure enclose_cubic(const Patch& patch, const in_double::SubTriangle& sub_triangle,
+                        const PartCorners& corners, double alpha) {
   Enclosure e{};
   e.count = 10;
-  e.points = cubic_of(quadratic_over(part, bulge), corners.D,
-                      [](double s, const dvec3& D) { return D * s; });
-  const auto ones = Quadratic<double>{1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
-  const auto base = cubic_of(ones, T, [](double s, const dvec3& t) { return t * s; });
-  for (std::size_t k = 0; k < 10; ++k) e.points[k] += base[k];
-  // A bulge is a difference of products as long as an edge.
-  e.radius = kRounding * (longest_of(T) + (1.0 + std::abs(alpha)) * patch.longest * 4.0);
+  e.points = control_points(patch, phong_quadratic(patch, alpha), sub_triangle);
+  // A coefficient of the quadratic is a difference of products as long as an edge.
+  e.radius = kRounding * (longest_of(corners.T) + (1.0 + std::abs(alpha)) * patch.longest * 4.0);
   return e;
 }
 
 // K of phong, quadratic: sum_{i<j} w_i w_j V_ij, V_ij = (E_ij.N_j) N_j - (E_ij.N_i) N_i.
-Quadratic<dvec3> phong_offset_over(const Patch& patch, const Part& part) {
+Quadratic<dvec3> phong_offset_over(const Patch& patch, const CornerWeights& weights) {
   std::array<dvec3, 3> V{};
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
     const dvec3 edge = patch.P[j] - patch.P[i];
     V[i] = patch.N[j] * glm::dot(edge, patch.N[j]) - patch.N[i] * glm::dot(edge, patch.N[i]);
   }
-  return quadratic_over(part, V);
+  return quadratic_over(weights, V);
 }
 
-Enclosure enclose_quotient(const Patch& patch, const Part& part, const PartCorners& corners,
-                           double alpha) {
+Enclosure enclose_quotient(const Patch& patch, const CornerWeights& weights,
+                           const PartCorners& corners, double alpha) {
   const auto& [T, D] = corners;
-  const Quadratic<dvec3> K = phong_offset_over(patch, part);
+  const Quadratic<dvec3> K = phong_offset_over(patch, weights);
   double farthest = 0.0;
   for (const dvec3& k : K) farthest = std::max(farthest, std::abs(alpha) * glm::length(k));
   const Enclosure wide =
@@ -136,9 +129,10 @@ Enclosure enclose_quotient(const Patch& patch, const Part& part, const PartCorne
   return e;
 }
 
-Enclosure enclose_sphere(const Patch& patch, const Part& part, const PartCorners& corners) {
+Enclosure enclose_sphere(const Patch& patch, const CornerWeights& weights,
+                         const PartCorners& corners) {
   const Enclosure wide = around_base(corners, patch.longest * (1.0 + kRounding));
-  const auto sigma = sphere_sigma_range(patch, part, corners);
+  const auto sigma = sphere_sigma_range(patch, weights, corners);
   if (!sigma || !std::isfinite(sigma->lo) || !std::isfinite(sigma->hi)) return wide;
   Enclosure e = around_base(corners, 0.0);
   e.D = corners.D;
@@ -148,12 +142,14 @@ Enclosure enclose_sphere(const Patch& patch, const Part& part, const PartCorners
   return e;
 }
 
-Enclosure enclose_surface(const SurfaceChoice& choice, const Patch& patch, const Part& part) {
-  const PartCorners corners = corners_of(patch, part);
+Enclosure enclose_surface(const SurfaceChoice& choice, const Patch& patch,
+                          const in_double::SubTriangle& sub_triangle) {
+  const CornerWeights weights = corner_weights(sub_triangle);
+  const PartCorners corners = corners_of(patch, weights);
   if (choice.surface == SURFACE_FLAT) return around_base(corners, 0.0);
-  if (choice.surface == SURFACE_SPHERE) return enclose_sphere(patch, part, corners);
-  return choice.shell == SHELL_NORMAL ? enclose_cubic(patch, part, corners, choice.alpha)
-                                      : enclose_quotient(patch, part, corners, choice.alpha);
+  if (choice.surface == SURFACE_SPHERE) return enclose_sphere(patch, weights, corners);
+  return choice.shell == SHELL_NORMAL ? enclose_cubic(patch, sub_triangle, corners, choice.alpha)
+                                      : enclose_quotient(patch, weights, corners, choice.alpha);
 }
 
 }  // namespace
@@ -173,30 +169,35 @@ Patch patch_of(uint shell, const Triangle& tri) {
   return patch;
 }
 
-std::array<Part, 4> quarter(const Part& part) {
-  const dvec3 a = (part[1] + part[2]) * 0.5;
-  const dvec3 b = (part[2] + part[0]) * 0.5;
-  const dvec3 c = (part[0] + part[1]) * 0.5;
-  return {Part{part[0], c, b}, Part{c, part[1], a}, Part{b, a, part[2]}, Part{a, b, c}};
+std::array<in_double::SubTriangle, 4> quarter(const in_double::SubTriangle& sub_triangle) {
+  return {in_double::child(sub_triangle, 0), in_double::child(sub_triangle, 1),
+          in_double::child(sub_triangle, 2), in_double::child(sub_triangle, 3)};
 }
 
-PartCorners corners_of(const Patch& patch, const Part& part) {
+CornerWeights corner_weights(const in_double::SubTriangle& sub_triangle) {
+  return {in_double::weights_of(sub_triangle, {1.0, 0.0, 0.0}),
+          in_double::weights_of(sub_triangle, {0.0, 1.0, 0.0}),
+          in_double::weights_of(sub_triangle, {0.0, 0.0, 1.0})};
+}
+
+PartCorners corners_of(const Patch& patch, const CornerWeights& weights) {
   PartCorners corners{};
   for (std::size_t k = 0; k < 3; ++k) {
-    corners.T[k] = weigh(part[k], patch.P);
-    corners.D[k] = weigh(part[k], patch.D);
+    corners.T[k] = weigh(weights[k], patch.P);
+    corners.D[k] = weigh(weights[k], patch.D);
   }
   return corners;
 }
 
-Enclosure enclose(const SurfaceChoice& choice, const Patch& patch, const Part& part) {
-  Enclosure e = enclose_surface(choice, patch, part);
+Enclosure enclose(const SurfaceChoice& choice, const Patch& patch,
+                  const in_double::SubTriangle& sub_triangle) {
+  Enclosure e = enclose_surface(choice, patch, sub_triangle);
   bool finite = std::isfinite(e.sigma.lo) && std::isfinite(e.sigma.hi) && std::isfinite(e.radius);
   for (std::size_t k = 0; k < e.count; ++k) {
     finite = finite && std::isfinite(glm::dot(e.points[k], e.points[k]));
   }
   for (const dvec3& D : e.D) finite = finite && std::isfinite(glm::dot(D, D));
-  // An overflow bounds nothing: a comparison with it must not say that the part is elsewhere.
+  // An overflow bounds nothing: a comparison with it must not say that the surface is elsewhere.
   if (!finite) {
     e = Enclosure{};
     e.count = 1;

@@ -1,5 +1,6 @@
-// Where a part of a patch can lie: proven enclosures in double precision, from which the bounds of
-// patches (patch_bounds.h) and the reference search (patch_search.h) are made.
+// Where the surface over a sub-triangle of a patch can lie: proven enclosures in double precision,
+// from which the bounds of patches (patch_bounds.h) and the reference search (patch_search.h) are
+// made.
 #pragma once
 
 #include <algorithm>
@@ -10,28 +11,32 @@
 #include "app/base/interval.h"
 #include "app/surface/shared.h"
 #include "app/surface/surface_choice.h"
+#include "app/surface/surface_double.h"
 
 namespace trisect {
 
-// The baked numbers in double precision.
+// A triangle's baked numbers in double precision.
 struct Patch {
   std::array<glm::dvec3, 3> P;
   std::array<glm::dvec3, 3> N;
   std::array<glm::dvec3, 3> D;     // the shell's directions
   std::array<glm::dvec3, 3> data;  // curvatures and angle
   glm::dvec3 n;                    // unit face normal
-  double longest;                  // edge
+  double longest;                  // length of the longest edge
 };
 
 Patch patch_of(uint shell, const Triangle& tri);
 
-// A part of the triangle: the weights of its corners.
-using Part = std::array<glm::dvec3, 3>;
+inline constexpr in_double::SubTriangle kWholeTriangle{glm::dvec3(0.0), 1.0};
 
-inline constexpr Part kWholeTriangle{glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)};
+// The children of a sub-triangle (in_double::child), the middle one last.
+std::array<in_double::SubTriangle, 4> quarter(const in_double::SubTriangle& sub_triangle);
 
-// The four parts between a part's corners and the middles of its edges, the middle one last.
-std::array<Part, 4> quarter(const Part& part);
+// The weights of a sub-triangle's corners in the patch. Exact for what quarter() and
+// in_double::enlarged() make of the whole triangle.
+using CornerWeights = std::array<glm::dvec3, 3>;
+
+CornerWeights corner_weights(const in_double::SubTriangle& sub_triangle);
 
 inline glm::dvec3 weigh(const glm::dvec3& w, const std::array<glm::dvec3, 3>& p) {
   return p[0] * w.x + p[1] * w.y + p[2] * w.z;
@@ -41,17 +46,17 @@ inline double longest_of(const std::array<glm::dvec3, 3>& vectors) {
   return std::max({glm::length(vectors[0]), glm::length(vectors[1]), glm::length(vectors[2])});
 }
 
-// Of a part: its corners on the base triangle and the shell's directions there. Both are linear
-// between.
+// At the corners of a sub-triangle: the points of the base triangle and the shell's directions.
+// Both are linear in between.
 struct PartCorners {
   std::array<glm::dvec3, 3> T;
   std::array<glm::dvec3, 3> D;
 };
 
-PartCorners corners_of(const Patch& patch, const Part& part);
+PartCorners corners_of(const Patch& patch, const CornerWeights& weights);
 
-// What contains S over a part: the hull of the points, plus sigma in `sigma` times the hull of D,
-// plus a ball of this radius (infinite where nothing is known).
+// What contains S over a sub-triangle: the hull of the points, plus sigma in `sigma` times the hull
+// of D, plus a ball of this radius (infinite where nothing is known).
 struct Enclosure {
   std::array<glm::dvec3, 10> points;
   std::size_t count;
@@ -64,14 +69,16 @@ struct Enclosure {
 // double precision.
 //
 // flat:   the corners.
-// phong, normal shell: sigma is a quadratic in w, S a cubic: its ten control points over the part.
-// phong, height shell: sigma = alpha D.K / |D|^2 with K quadratic in w. With L the linear function
+// phong, normal shell: sigma is a quadratic in w, S a cubic: its ten control points over the
+// sub-triangle. phong, height shell: sigma = alpha D.K / |D|^2 with K quadratic in w. With L the
+// linear function
 //         that agrees with sigma at the corners, T + L D is quadratic, six control points, and
 //         sigma - L = (alpha D.K - L |D|^2) / |D|^2 lies between the quotients of the extreme
-//         Bernstein coefficients: a band whose width falls with the square of the part's size.
-//         Where D turns too fast for that, |sigma D| <= |alpha K|.
+//         Bernstein coefficients: a band whose width falls with the square of the sub-triangle's
+//         size. Where D turns too fast for that, |sigma D| <= |alpha K|.
 // sphere: the range of sigma, or |sigma D| <= the longest edge.
-Enclosure enclose(const SurfaceChoice& choice, const Patch& patch, const Part& part);
+Enclosure enclose(const SurfaceChoice& choice, const Patch& patch,
+                  const in_double::SubTriangle& sub_triangle);
 
 // Range of (x - origin).axis over an enclosure, axis of unit length.
 Interval extent_along(const Enclosure& enclosure, const glm::dvec3& origin, const glm::dvec3& axis);

@@ -33,6 +33,10 @@ inline double polar_angle(double sine, double cosine) {
 #include "shaders/thesis_field.glsl"
 // The march needs the fields above.
 #include "shaders/bisect.glsl"
+// Control points are taken over sub-triangles.
+#include "shaders/sub_triangle.glsl"
+// They use the functions above.
+#include "shaders/control_net.glsl"
 }  // namespace
 #pragma GCC diagnostic pop
 #undef real

@@ -27,6 +27,10 @@ namespace {
 #include "shaders/thesis_field.glsl"
 // The bisection needs the fields above.
 #include "shaders/bisect.glsl"
+// Control points are taken over sub-triangles.
+#include "shaders/sub_triangle.glsl"
+// They use the functions above.
+#include "shaders/control_net.glsl"
 // The bounds come before what uses them.
 #include "shaders/subpatch_bounds.glsl"
 // Then the ranges.

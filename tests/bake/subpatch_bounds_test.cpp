@@ -1,15 +1,14 @@
-// What the bake promises about parts, and what a camera sees of them, against points of the
-// surface.
+// The bounds of subpatches and their projections, against points of the surface.
 #include "app/bake/subpatch_bounds.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "app/bake/control_net.h"
 #include "app/base/interval.h"
 #include "app/dispatch/kernel_float.h"
 #include "app/dispatch/trace_settings.h"
+#include "app/surface/control_net.h"
 #include "app/surface/surface_double.h"
 #include "app/surface/to_double.h"
 #include "tests/support/scenes.h"
@@ -30,20 +29,20 @@ const Choice kChoices[] = {{"sphere-20", {SURFACE_PHONG, 0.65, SHELL_NORMAL}},
                            {"relief", {SURFACE_PHONG, 0.65, SHELL_HEIGHT}},
                            {"sphere-80", {SURFACE_SPHERE, 0.0, SHELL_NORMAL}}};
 
-BakedScene caged(const Choice& choice) {
+BakedScene baked(const Choice& choice) {
   return bake_with_subpatches(test::load_asset(choice.model), choice.choice);
 }
 
-dvec3 weights_in(const SubpatchBounds& bounds, const dvec3& l) {
+dvec3 weights_of(const SubpatchBounds& bounds, const dvec3& l) {
   return dvec3(bounds.sub_triangle) + l * static_cast<double>(bounds.sub_triangle.w);
 }
 
-// No line within a part's cone is tangent to the enlarged part: S_u, S_v and the line keep their
-// orientation.
-TEST(SubpatchBounds, LinesWithinItsConeCrossThePartOneWay) {
+// No line within a subpatch's cone is tangent to the enlarged subpatch: S_u, S_v and the line keep
+// their orientation.
+TEST(SubpatchBounds, LinesWithinItsConeCrossTheSubpatchOneWay) {
   std::size_t cones = 0;
   for (const Choice& choice : kChoices) {
-    const BakedScene scene = caged(choice);
+    const BakedScene scene = baked(choice);
     for (const SubpatchBounds& bounds : scene.subpatches) {
       if (bounds.cone.w == NO_CONE) continue;
       ++cones;
@@ -57,7 +56,7 @@ TEST(SubpatchBounds, LinesWithinItsConeCrossThePartOneWay) {
       const double sine = std::sqrt(1.0 - cosine * cosine);
       for (const dvec3& l : test::weight_grid(6)) {
         const dvec3 w =
-            weights_in(bounds, l * (1.0 + 3.0 * CONE_MARGIN) - dvec3(double{CONE_MARGIN}));
+            weights_of(bounds, l * (1.0 + 3.0 * CONE_MARGIN) - dvec3(double{CONE_MARGIN}));
         const dvec3 normal = in_double::geometric_normal(shape, tri, w);
         const double side = glm::dot(normal, n);
         for (int k = 0; k < 16; ++k) {
@@ -72,7 +71,7 @@ TEST(SubpatchBounds, LinesWithinItsConeCrossThePartOneWay) {
   EXPECT_GT(cones, 1000U);
 }
 
-// Of a point of a triangle, each as likely as any other.
+// The weights of a random point, uniform over a triangle.
 dvec3 random_weights(std::mt19937_64& random) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   const double a = std::sqrt(unit(random));
@@ -80,64 +79,66 @@ dvec3 random_weights(std::mt19937_64& random) {
   return {1.0 - a, a * b, a * (1.0 - b)};
 }
 
-// What is known of a part, at points of it and of its overlap: how far the surface and its tangents
-// are from the cage's, and that it lies in the ball.
-TEST(SubpatchBounds, HoldsThePart) {
+// Points of a subpatch and of its overlap: the surface and its tangents differ from those of T + q
+// D by no more than the errors, and the surface lies in the ball.
+TEST(SubpatchBounds, HoldTheSurface) {
   std::mt19937_64 random(5);
-  std::size_t kinked = 0;
-  double most_of_stray = 0.0;
-  double most_of_tangent_stray = 0.0;
+  std::size_t nonsmooth = 0;
+  double most_of_position_error = 0.0;
+  double most_of_tangent_error = 0.0;
   for (const Choice& choice : {Choice{"sphere-20", {SURFACE_SPHERE, 0.0, SHELL_NORMAL}},
                                Choice{"relief", {SURFACE_SPHERE, 0.0, SHELL_HEIGHT}},
                                Choice{"saddle", {SURFACE_SPHERE, 0.0, SHELL_HEIGHT}},
                                Choice{"torus", {SURFACE_PHONG, 0.65, SHELL_HEIGHT}},
                                Choice{"teapot", {SURFACE_SPHERE, 0.0, SHELL_HEIGHT}}}) {
-    const BakedScene scene = caged(choice);
+    const BakedScene scene = baked(choice);
     const in_double::Shape shape = shape_of(choice.choice);
     for (std::size_t k = 0; k < scene.subpatches.size(); k += 3) {
       const SubpatchBounds& bounds = scene.subpatches[k];
       if (bounds.skip > 0) continue;
-      if (bounds.gradient_lipschitz == NONSMOOTH) ++kinked;
+      if (bounds.gradient_lipschitz == NONSMOOTH) ++nonsmooth;
       const in_double::Triangle tri = to_double(scene.triangles[bounds.triangle]);
-      const Corners corners = corners_of(tri, shape.shell);
+      const Patch corners = patch_of(shape.shell, scene.triangles[bounds.triangle]);
       const DisplacementQuadratic q{dvec3(glm::vec3(bounds.corner)), dvec3(glm::vec3(bounds.edge))};
       for (int i = 0; i < 10; ++i) {
         const dvec3 l = random_weights(random);
-        const dvec3 w = weights_in(bounds, l * (1.0 + 3.0 * OVERLAP) - dvec3(double{OVERLAP}));
+        const dvec3 w = weights_of(bounds, l * (1.0 + 3.0 * OVERLAP) - dvec3(double{OVERLAP}));
         const in_double::Displacement sigma =
             in_double::displacement_and_derivatives(shape, tri, w);
         const dvec3 D = in_double::shell_direction(shape.shell, tri, w);
         const double e = sigma.s - q.blossom(w, w);
-        ASSERT_LE(std::abs(e) * glm::length(D), bounds.corner.w) << choice.model << " part " << k;
+        ASSERT_LE(std::abs(e) * glm::length(D), bounds.corner.w)
+            << choice.model << " subpatch " << k;
         const dvec3 S = in_double::surface_point(shape, tri, w);
         ASSERT_LE(glm::distance(S, dvec3(bounds.ball)), bounds.ball.w)
-            << choice.model << " part " << k;
+            << choice.model << " subpatch " << k;
         if (bounds.gradient_lipschitz == NONSMOOTH) continue;
         const double off_u = sigma.u - 2.0 * q.blossom(w, {-1.0, 1.0, 0.0});
         const double off_v = sigma.v - 2.0 * q.blossom(w, {-1.0, 0.0, 1.0});
         const double off = std::max(glm::length(D * off_u + (corners.D[1] - corners.D[0]) * e),
                                     glm::length(D * off_v + (corners.D[2] - corners.D[0]) * e));
-        ASSERT_LE(off, bounds.edge.w) << choice.model << " part " << k;
-        most_of_stray = std::max(most_of_stray, std::abs(e) * glm::length(D) / bounds.corner.w);
-        most_of_tangent_stray = std::max(most_of_tangent_stray, off / bounds.edge.w);
+        ASSERT_LE(off, bounds.edge.w) << choice.model << " subpatch " << k;
+        most_of_position_error =
+            std::max(most_of_position_error, std::abs(e) * glm::length(D) / bounds.corner.w);
+        most_of_tangent_error = std::max(most_of_tangent_error, off / bounds.edge.w);
       }
     }
   }
-  EXPECT_GT(kinked, 1000U);
-  // The largest of the samples is two thirds of a stray. Points between them are little farther
-  // off: they leave most of the margin that is there for those that no test sees.
-  EXPECT_LT(most_of_stray, 0.75);
-  EXPECT_LT(most_of_tangent_stray, 0.85);
+  EXPECT_GT(nonsmooth, 1000U);
+  // The largest difference of the bake's samples is two thirds of an error. At points between the
+  // samples it is not much larger, so most of the margin is left for points that no test sees.
+  EXPECT_LT(most_of_position_error, 0.75);
+  EXPECT_LT(most_of_tangent_error, 0.85);
 }
 
-// The kernel's bounds of a part with a kink, over nodes of all sizes.
+// The kernel's bounds for nonsmooth subpatches, over nodes of all sizes.
 TEST(SphereRange, HoldsSigmaAndItsChanges) {
   std::mt19937_64 random(6);
   double widths = 0.0;
   double seen = 0.0;
   std::size_t nodes = 0;
   std::size_t of_known_gradient = 0;
-  const BakedScene scene = caged({"teapot", {SURFACE_SPHERE, 0.0, SHELL_HEIGHT}});
+  const BakedScene scene = baked({"teapot", {SURFACE_SPHERE, 0.0, SHELL_HEIGHT}});
   const in_float::Shape single_shape{SURFACE_SPHERE, SHELL_HEIGHT, 0.0F};
   const in_double::Shape shape = shape_of(scene.choice);
   for (const SubpatchBounds& bounds : scene.subpatches) {
@@ -178,27 +179,27 @@ TEST(SphereRange, HoldsSigmaAndItsChanges) {
     }
   }
   EXPECT_GT(seen, 100.0);
-  // Interval arithmetic is wider than it must be, and ten points do not see all; not more.
+  // Interval arithmetic overestimates, and ten points do not show the whole range; but not by more.
   EXPECT_LT(widths, 10.0 * seen);
-  // Only along the curve on which lines begin to miss a sphere is there no bound.
+  // Only along the curve on which lines begin to miss a sphere is the gradient not bounded.
   EXPECT_GT(of_known_gradient, nodes * 9 / 10);
 }
 
-// The image positions of points of the surface lie in the box and within the lines that the kernel
-// draws around their part, and not before the depth at which it begins.
-TEST(ProjectedSubpatch, HoldsWhatIsSeenOfThePart) {
+// The image positions of points of the surface lie in the box and within the lines of the projected
+// subpatch, and their depth is not less than the one at which it begins.
+TEST(ProjectedSubpatch, HoldsTheImageOfTheSurface) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   std::size_t points = 0;
   double tightest = 1e30;
   for (const Choice& choice : kChoices) {
-    const BakedScene scene = caged(choice);
+    const BakedScene scene = baked(choice);
     for (int view = 0; view < 6; ++view) {
       TraceSettings settings;
       settings.width = 640;
       settings.height = 480;
       const dvec3 from(unit(random), unit(random), unit(random));
-      // Every other camera stands within the model.
+      // Every other camera is inside the model.
       settings.camera.eye = scene.origin + from * scene.radius * (view % 2 == 0 ? 4.0 : 0.5);
       settings.camera.target = scene.origin + dvec3(unit(random), 0.1, 0.2) * scene.radius * 0.2;
       const TraceParams params = make_params(scene, settings);
@@ -206,15 +207,15 @@ TEST(ProjectedSubpatch, HoldsWhatIsSeenOfThePart) {
       const dvec3 X(params.frame_x);
       const dvec3 Y(params.frame_y);
       const dvec3 Z(params.frame_z);
-      for (uint32_t part = 0; part < scene.subpatches.size(); part += 7) {
-        const SubpatchBounds& bounds = scene.subpatches[part];
-        const ProjectedSubpatch seen = kernel.project_subpatch(part);
+      for (uint32_t i = 0; i < scene.subpatches.size(); i += 7) {
+        const SubpatchBounds& bounds = scene.subpatches[i];
+        const ProjectedSubpatch seen = kernel.project_subpatch(i);
         ProjectedSubpatch balled = seen;
         kernel.bound_by_ball(bounds.ball, balled);
         for (const dvec3& l : test::weight_grid(4)) {
           const dvec3 S = in_double::surface_point(shape_of(choice.choice),
                                                    to_double(scene.triangles[bounds.triangle]),
-                                                   weights_in(bounds, l)) -
+                                                   weights_of(bounds, l)) -
                           dvec3(params.anchor);
           const double z = glm::dot(S, Z);
           EXPECT_GE(z, seen.lines_x.w);
@@ -225,7 +226,7 @@ TEST(ProjectedSubpatch, HoldsWhatIsSeenOfThePart) {
           if (std::max(std::abs(p.x), std::abs(p.y)) > 1e4) continue;
           ++points;
           ASSERT_TRUE(kernel.overlaps_rect(seen, glm::vec2(p), glm::vec2(kernel.PIXEL_SLACK)))
-              << choice.model << " part " << part << " view " << view << " at " << p.x << ", "
+              << choice.model << " subpatch " << i << " view " << view << " at " << p.x << ", "
               << p.y;
           ASSERT_TRUE(kernel.overlaps_rect(balled, glm::vec2(p), glm::vec2(kernel.PIXEL_SLACK)));
           EXPECT_GE(z, balled.lines_x.w);
