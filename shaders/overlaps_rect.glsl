@@ -1,9 +1,10 @@
-// Where in the image a part can be, asked of what a frame's camera sees of it.
+// Whether a subpatch can be seen in a rectangle of the image.
 
-// Around an image position, in pixels: more than the roundings of one.
+// What an image position may be off by, in pixels: more than its roundings.
 const real PIXEL_SLACK = real(0.02);
 
-// Whether a rectangle of the image, given by its middle and half its size, may see the part.
+// False if the subpatch is not seen in the rectangle with this middle and half this size, in pixels: it lies beside the
+// box, or wholly on the outer side of one of the lines.
 bool overlaps_rect(ProjectedSubpatch view, vec2 middle, vec2 half_size) {
   bool in_box = view.box.x <= middle.x + half_size.x && view.box.z >= middle.x - half_size.x &&
                 view.box.y <= middle.y + half_size.y && view.box.w >= middle.y - half_size.y;

@@ -40,7 +40,7 @@ Triangle bake_triangle(const std::array<dvec3, 3>& positions, const std::array<d
     N[i] = dvec3(tri.Normal[i]);
   }
   dvec3 n = glm::cross(P[1] - P[0], P[2] - P[0]);
-  // A triangle that rounding has flattened keeps the face normal it had.
+  // If rounding has flattened the triangle to a line, its face normal is that of before.
   if (n == dvec3(0.0)) n = glm::cross(positions[1] - positions[0], positions[2] - positions[0]);
   n = glm::normalize(n);
   double longest = 0.0;
@@ -80,7 +80,8 @@ BakedScene bake(const Mesh& mesh, const SurfaceChoice& choice) {
     high = glm::max(high, p);
   }
   scene.origin = low + (high - low) * 0.5;
-  // The kernels form fourth powers of lengths in single precision, which holds 1e-38 to 1e38.
+  // The kernels compute fourth powers of lengths in single precision, with a range of 1e-38 to
+  // 1e38.
   constexpr double smallest = 1e-9;
   constexpr double largest = 1e9;
   scene.extent = glm::distance(low, high) * 0.5;

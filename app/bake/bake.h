@@ -12,25 +12,27 @@
 namespace trisect {
 
 // The mesh as the kernels see it. Positions are relative to `origin`, the centre of the vertices'
-// box, so that a model far from the world's origin keeps its digits in single precision.
+// bounding box, so that a model far from the world's origin keeps its digits in single precision.
 struct BakedScene {
   SurfaceChoice choice;
   glm::dvec3 origin{0.0};
   std::vector<Triangle> triangles;         // in the order of the mesh
-  std::vector<SubpatchBounds> subpatches;  // of the robust solver; empty if it is not used
-  std::vector<BvhEntry> bvh;               // over the cages; empty if no ray goes by it
-  double extent = 0.0;                     // half the diagonal of that box
+  std::vector<SubpatchBounds> subpatches;  // for the robust solver; empty if it is not used
+  std::vector<BvhEntry> bvh;               // over the subpatches; empty if none is needed
+  double extent = 0.0;                     // half the diagonal of the bounding box
   double radius = 0.0;  // of the ball about `origin` that contains every triangle's Domain
 };
 
-// What the scene takes in a device's memory.
+// Bytes of the scene's buffers in a device's memory.
 std::size_t device_bytes(const BakedScene& scene);
 
-// Pure. Throws InputError if the model is too large or too small for single precision.
+// The triangles alone, without subpatches and bvh. Works on all cores; the result does not depend
+// on their number. Throws InputError if the model is too large or too small for single precision.
 BakedScene bake(const Mesh& mesh, const SurfaceChoice& choice);
 
-// One triangle, from positions relative to the scene's origin and unit normals. Everything but the
-// first two members follows from the rounded positions and normals, as the kernels see them.
+// One triangle, from positions relative to the scene's origin and unit normals. Pure. Everything
+// but the first two members follows from the positions and normals as rounded to single precision,
+// so that it fits what the kernels see.
 Triangle bake_triangle(const std::array<glm::dvec3, 3>& positions,
                        const std::array<glm::dvec3, 3>& normals, const SurfaceChoice& choice);
 

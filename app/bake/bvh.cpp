@@ -20,10 +20,10 @@ namespace {
 
 constexpr uint32_t kChildren = 8;
 
-// What Embree's builder makes: a tree of branches whose leaves are nothing but nodes, in its own
-// memory.
+// The tree as Embree's builder makes it, in its own memory: a leaf is a Node, an inner node a
+// Branch.
 struct Node {
-  uint32_t subpatch = NO_TRIANGLE;  // of a leaf
+  uint32_t subpatch = NO_TRIANGLE;  // index; NO_TRIANGLE marks a branch
 };
 struct Branch : Node {
   std::array<Node*, kChildren> children{};
@@ -35,7 +35,7 @@ T* make(RTCThreadLocalAllocator allocator) {
   return new (rtcThreadLocalAlloc(allocator, sizeof(T), alignof(T))) T;
 }
 
-// Embree hands over nodes as they are given to it: as pointers to Node.
+// Embree gets all nodes as pointers to Node, behind void*, and hands them back as such.
 Branch& branch_at(void* node) {
   return *static_cast<Branch*>(static_cast<Node*>(node));
 }
@@ -85,14 +85,15 @@ SubpatchBox around(const SubpatchBox& a, const SubpatchBox& b) {
   return {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)};
 }
 
-// Around nothing.
+// The empty box: around() it and a box is that box.
 SubpatchBox no_box() {
   const glm::vec3 most(std::numeric_limits<float>::max());
   return {most, -most};
 }
 
-// Which child stands at which of the eight octants: the best pair of a child and an octant that is
-// left is matched first, the better the farther the child is on the octant's side.
+// The child for each of the eight octants, NO_TRIANGLE where there is none. Greedy: of the children
+// and octants that are left the pair is matched for which the child lies farthest on the octant's
+// side.
 std::array<uint32_t, kChildren> octants_of(const Branch& branch) {
   SubpatchBox all = no_box();
   for (uint32_t k = 0; k < kChildren; ++k) {
@@ -125,8 +126,8 @@ std::array<uint32_t, kChildren> octants_of(const Branch& branch) {
   }
 }
 
-// Appends the branch's node and all below it. next: the entry that follows it. level: of the node,
-// 0 for the root.
+// Appends the eight entries of a branch and all that is below it. `next`: the entry at which a ray
+// goes on after the branch. `level`: of the branch, 0 for the root.
 void flatten(const Branch& branch, int level, uint32_t next, std::vector<BvhEntry>& bvh) {
   if (level == BVH_LEVELS || bvh.size() / kChildren == BVH_MOST_NODES) {
     throw InputError("the model has more patches than a tree may hold; use --accel list.");
@@ -203,14 +204,14 @@ std::vector<BvhEntry> build_bvh(const BakedScene& scene) {
 
 std::optional<std::vector<BvhEntry>> refitted_bvh(const BakedScene& scene,
                                                   const BakedScene& other) {
-  const bool same_parts =
+  const bool same_division =
       std::equal(scene.subpatches.begin(), scene.subpatches.end(), other.subpatches.begin(),
                  other.subpatches.end(),
                  [](const SubpatchBounds& a, const SubpatchBounds& b) { return a.skip == b.skip; });
-  if (other.bvh.empty() || !same_parts) return std::nullopt;
+  if (other.bvh.empty() || !same_division) return std::nullopt;
   const std::vector<SubpatchBox> boxes = subpatch_boxes(scene);
   std::vector<BvhEntry> bvh = other.bvh;
-  // What lies below an entry comes after it.
+  // From the end on, as the entries below an entry come after it.
   for (std::size_t i = bvh.size(); i-- > 0;) {
     BvhEntry& entry = bvh[i];
     if (entry.link == BVH_EMPTY) continue;

@@ -1,4 +1,4 @@
-// A tree over the boxes of a scene's parts, to find those that a ray may meet.
+// A bounding volume hierarchy over a scene's subpatches, to find those that a ray may meet.
 #pragma once
 
 #include <optional>
@@ -9,15 +9,17 @@
 
 namespace trisect {
 
-// Of the scene's cages, of which there must be one, by Embree's builder (surface area heuristic,
-// nodes of eight). The children of a node are put in the order of octants (Ylitie, Karras & Laine
-// 2017, section 3.2), so that a ray may take them front to back. Throws InputError if it cannot
-// hold them.
+// The tree over the scene's subpatches, of which there must be one at least, by Embree's builder
+// (surface area heuristic, nodes of eight). The children of a node are in the order of octants
+// (Ylitie, Karras & Laine 2017, "Efficient incoherent ray traversal on GPUs through compressed wide
+// BVHs", section 3.2), so that a ray may take them front to back. Embree builds on all cores and
+// does not promise the same tree every time; the hits of rays do not depend on its shape. Throws
+// InputError if there are more subpatches than a tree can hold, std::runtime_error if Embree fails.
 std::vector<BvhEntry> build_bvh(const BakedScene& scene);
 
-// The tree of another scene with boxes around this one's parts, which takes a fraction of the time.
-// Nothing if there is no such tree or its parts are not this scene's by number: after a change of
-// alpha or of the surface they are, unless a patch is divided otherwise.
+// other.bvh with its boxes refitted to the scene's subpatches, in a fraction of the time of a
+// build. Nothing if there is no such tree or if the two scenes' patches are not divided in the same
+// way. Meant for a change of alpha or of the surface of one mesh. Pure.
 std::optional<std::vector<BvhEntry>> refitted_bvh(const BakedScene& scene, const BakedScene& other);
 
 }  // namespace trisect

@@ -11,27 +11,27 @@ double farthest_distance(const glm::dvec3& center, const Ball& ball) {
   return glm::distance(center, ball.center) + ball.radius;
 }
 
-// The first of the balls that reach farthest from the centre, and how far.
+// The ball that reaches farthest from a centre, the first one if there are several, and how far.
 struct Farthest {
   const Ball* ball;
-  double farthest_distance;
+  double distance;
 };
 
 Farthest farthest(const glm::dvec3& center, std::span<const Ball> balls, bool are_points) {
   if (are_points) {
-    // One root is enough.
+    // Squares of distances compare alike and save a square root for each point.
     Farthest far{balls.data(), -1.0};
     for (const Ball& ball : balls) {
       const glm::dvec3 away = center - ball.center;
       const double square = glm::dot(away, away);
-      if (square > far.farthest_distance) far = {&ball, square};
+      if (square > far.distance) far = {&ball, square};
     }
-    return {far.ball, std::sqrt(far.farthest_distance)};
+    return {far.ball, std::sqrt(far.distance)};
   }
   Farthest far{balls.data(), farthest_distance(center, balls[0])};
   for (const Ball& ball : balls.subspan(1)) {
     const double distance = farthest_distance(center, ball);
-    if (distance > far.farthest_distance) far = {&ball, distance};
+    if (distance > far.distance) far = {&ball, distance};
   }
   return far;
 }
@@ -42,7 +42,8 @@ Ball enclosing_ball(std::span<const Ball> balls) {
   glm::dvec3 center(0.0);
   for (const Ball& ball : balls) center += ball.center / static_cast<double>(balls.size());
   Ball best{center, std::numeric_limits<double>::infinity()};
-  // After k steps the excess is at most of the order of 1/k; on the few points here it is far less.
+  // After k steps the centre is at most 1 / sqrt(k) of the smallest ball's radius from that one's
+  // (Badoiu & Clarkson); for the few points of a patch it is much nearer.
   constexpr int steps = 32;
   const bool are_points =
       std::all_of(balls.begin(), balls.end(), [](const Ball& ball) { return ball.radius == 0.0; });
@@ -52,7 +53,7 @@ Ball enclosing_ball(std::span<const Ball> balls) {
     if (radius < best.radius) best = {center, radius};
     const double distance = glm::distance(center, far.center);
     if (distance == 0.0) break;
-    // Toward the far ball's farthest point.
+    // Step toward the point of that ball that is farthest from the centre.
     const glm::dvec3 point = far.center + (far.center - center) * (far.radius / distance);
     center += (point - center) / static_cast<double>(k + 1);
   }

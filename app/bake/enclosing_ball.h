@@ -1,4 +1,4 @@
-// Balls that contain balls.
+// A small ball that contains given balls.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -11,9 +11,11 @@ struct Ball {
   double radius = 0.0;
 };
 
-// A ball that contains all of `balls` (one or more), a little larger than the smallest (2% in the
-// tests' cases): the core-set iteration of Badoiu & Clarkson 2003. Deterministic; contains them up
-// to the rounding of a distance.
+// A ball that contains all of `balls`, of which there must be one at least: the core-set iteration
+// of Badoiu & Clarkson 2003, "Smaller core-sets for balls". Its radius is at most some percent
+// larger than the smallest one (2% in the tests' cases). It contains the balls up to the rounding
+// of a distance in double precision. All numbers must be finite. Pure and deterministic, but the
+// result depends on the order of the balls.
 Ball enclosing_ball(std::span<const Ball> balls);
 
 }  // namespace trisect

@@ -1,5 +1,5 @@
-// The cages of a scene's patches: what lets the robust solver prove that a ray misses a patch, or
-// meets it once.
+// The bounds of a scene's subpatches: what lets the robust solver prove that a ray misses a patch,
+// or meets it once at most.
 #pragma once
 
 #include <vector>
@@ -9,17 +9,21 @@
 
 namespace trisect {
 
-// One cage for a patch whose sigma is close to a quadratic, several for parts of one that is not;
-// in the order of the scene's triangles.
+// The bounds for scene.triangles, in their order: one for a patch whose sigma is close to a
+// quadratic; otherwise one for the whole, with `skip` set, followed by those of its four quarters,
+// each of them divided in the same way, depth first. Position and tangent errors are proven for
+// Phong Tessellation in the normal shell (roundings only) and, the position error, for nonsmooth
+// subpatches; for others they come from samples with a margin. Works on all cores; the result does
+// not depend on their number.
 std::vector<SubpatchBounds> bake_subpatches(const BakedScene& scene);
 
-// bake(), and the cages.
+// bake() and bake_subpatches().
 BakedScene bake_with_subpatches(const Mesh& mesh, const SurfaceChoice& choice);
 
-// Whether some patch has several.
+// Whether some patch is divided into subpatches.
 bool has_divided_patches(const BakedScene& scene);
 
-// Whether some part may have a kink.
+// Whether the gradient of sigma may jump over some subpatch.
 bool has_nonsmooth(const BakedScene& scene);
 
 }  // namespace trisect

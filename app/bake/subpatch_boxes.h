@@ -1,4 +1,4 @@
-// Where the parts of a scene's patches are.
+// Bounding boxes of a scene's subpatches.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -8,14 +8,15 @@
 
 namespace trisect {
 
-// In single precision, rounded outward.
+// Axis-aligned, relative to the scene's origin, in single precision, rounded outward.
 struct SubpatchBox {
   glm::vec3 lo;
   glm::vec3 hi;
 };
 
-// For each of the scene's cages a box that contains the part, enlarged by OVERLAP, and BVH_SLACK of
-// the scene's extent around it; for a group of parts nothing of use.
+// For each of scene.subpatches a box that contains its surface, enlarged by OVERLAP, with a margin
+// of BVH_SLACK times the scene's radius. Of a divided patch (`skip` not 0) the box of the whole is
+// not to be used. Works on all cores; the result does not depend on their number.
 std::vector<SubpatchBox> subpatch_boxes(const BakedScene& scene);
 
 }  // namespace trisect

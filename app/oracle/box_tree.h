@@ -1,4 +1,4 @@
-// A tree of boxes, to find those that a ray may meet.
+// A bounding volume hierarchy in double precision, to find the boxes that a ray may meet.
 #pragma once
 
 #include <array>
@@ -14,24 +14,26 @@ struct Box {
   glm::dvec3 hi;
 };
 
+// Not changed after construction: safe to use from several threads.
 class BoxTree {
  public:
   BoxTree() = default;
-  // Boxes may be infinite, but must not be NaN.
+  // Boxes may be infinite, but must not be NaN. Keeps no reference.
   explicit BoxTree(std::span<const Box> boxes);
 
-  // The numbers of the boxes that come within `margin` of the ray between these distances, put into
-  // `found`, in no order. A box is never left out for rounding. direction: of unit length.
+  // Replaces `found` by the indices of the boxes that come within `margin` of the ray, of unit
+  // direction, between these distances along it, in no particular order. There may be some more,
+  // but rounding leaves out none.
   void meet(const glm::dvec3& origin, const glm::dvec3& direction, double t_min, double t_max,
             double margin, std::vector<uint32_t>& found) const;
 
  private:
   struct Node {
     Box box;
-    uint32_t right;  // child; the left one follows its parent. 0: a leaf
-    uint32_t leaf;   // number of the box
+    uint32_t right;  // index of the right child, 0 for a leaf; the left child follows its parent
+    uint32_t leaf;   // index of a leaf's box
   };
-  void build(std::span<const Box> boxes, std::span<uint32_t> numbers);
+  void build(std::span<const Box> boxes, std::span<uint32_t> indices);
 
   std::vector<Node> nodes_;
 };

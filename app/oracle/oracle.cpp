@@ -10,8 +10,8 @@ namespace {
 
 using glm::dvec3;
 
-// Levels of each patch's tree that are kept: 85 parts, fewer where there are very many patches; a
-// part takes half a kilobyte.
+// Levels of each patch's quadtree that are kept in memory: 85 nodes of 0.8 kilobytes, fewer if
+// there are very many patches.
 int kept_levels(std::size_t patches) {
   if (patches <= 3000) return 3;
   return patches <= 30000 ? 2 : 1;
@@ -44,9 +44,10 @@ double slant(const OracleRay& ray, const OracleRoot& root) {
   return std::abs(glm::dot(ray.direction, root.normal));
 }
 
-// Whether the answers for a ray and for it moved tell the same. A surface met at a slant moves t by
-// the motion over the sine of the angle between; 50 times that leaves room for its curvature. What
-// triangle it is does not matter: across a shared edge t is the same, across a gap it jumps.
+// Whether the answers for a ray and for the moved ray agree. On a plane t changes by the motion
+// over the sine of the angle between ray and plane; 50 times that leaves room for the surface's
+// curvature. The triangle does not matter: across a shared edge t is the same, across a gap it
+// jumps.
 bool same(const OracleRay& ray, const OracleAnswer& a, const OracleAnswer& b, double motion) {
   if (a.hit != b.hit) return false;
   if (!a.hit) return true;
@@ -68,7 +69,7 @@ OracleAnswer answer_of(const std::vector<OracleRoot>& roots, double t_min, doubl
 }  // namespace
 
 struct Oracle::Search {
-  std::vector<OracleRoot> roots;  // sorted; some beyond the ray's ends
+  std::vector<OracleRoot> roots;  // sorted by t; some lie beyond the ray's ends
   double doubt_t = kInfinity;     // PatchFindings::doubt_t
 };
 
@@ -84,7 +85,7 @@ Oracle::Oracle(const BakedScene& scene) {
   tree_ = BoxTree(boxes);
 }
 
-// Also what lies within the margin of the ray's ends.
+// All roots between the ray's ends and within the margin of them.
 Oracle::Search Oracle::search(const OracleRay& ray, double margin) const {
   thread_local std::vector<uint32_t> candidates;
   const double t_min = ray.t_min - margin;

@@ -1,5 +1,6 @@
-// The double-precision reference: all points where a ray meets the curved triangles, by a search of
-// its own (patch_search.h), the first of them, and whether single precision could tell it.
+// The double-precision reference: all points where a ray meets the curved triangles, by a search
+// that shares no code with the robust solver but the formulas of the surface (patch_search.h); the
+// first of them; and whether single precision can decide on it.
 #pragma once
 
 #include <cstdint>
@@ -36,21 +37,22 @@ struct OracleAnswer {
   OracleRoot root{};
 };
 
-// Hits are two-sided. Safe to use from several threads.
+// Both sides of a triangle are hit. Safe to use from several threads.
 class Oracle {
  public:
   // The scene's baked numbers, widened to double precision, are the truth. Keeps no reference.
   explicit Oracle(const BakedScene& scene);
 
-  // All roots with t_min <= t <= t_max, sorted by t. On a shared edge both triangles have one.
+  // All roots with t_min <= t <= t_max, sorted by t; of one triangle, or of the scene. On a shared
+  // edge both triangles have one. roots_of throws std::out_of_range if there is no such triangle.
   [[nodiscard]] std::vector<OracleRoot> roots_of(uint32_t triangle, const OracleRay& ray) const;
   [[nodiscard]] std::vector<OracleRoot> roots(const OracleRay& ray) const;
 
-  // The first root. Undecidable where the answer flips when the ray is moved sideways by `motion`,
-  // a distance, in four directions, or its ends along it: from hit to miss, or to a t farther off
-  // than a surface at the hit's slant would move it. Rays that meet a patch squarely, away from its
-  // border and with no other part of a patch within twice `motion`, are not moved: they are
-  // decidable.
+  // The first root. It is undecidable if the answer changes when the ray is moved sideways by
+  // `motion`, a distance, in four directions, or its ends are moved along it by as much: from hit
+  // to miss, or to a t that is farther off than the slant of the surface explains. A ray that meets
+  // a patch squarely, away from its border, with no surface in doubt before the hit, is decidable
+  // without being moved.
   [[nodiscard]] OracleAnswer first(const OracleRay& ray, double motion) const;
 
  private:
@@ -71,8 +73,8 @@ struct OracleFrame {
 };
 
 // One answer for each pixel, on as many threads as the machine has. ray_of and motion_of are called
-// on those threads. progress: as parallel_rows has it, of rows; nothing is returned if it says
-// stop. What any of the three throws stops the work and is thrown on.
+// on those threads, at the same time. progress counts rows, as parallel_rows has it; nothing is
+// returned if it stops the work. What any of the three throws stops the work and is thrown here.
 std::optional<OracleFrame> oracle_frame(
     const Oracle& oracle, uint32_t width, uint32_t height,
     const std::function<OracleRay(uint32_t x, uint32_t y)>& ray_of,

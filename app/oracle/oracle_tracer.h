@@ -1,4 +1,4 @@
-// The oracle as a back end: the same rays as the kernels', in double precision.
+// The oracle as a back end: the rays of the kernels, in double precision.
 #pragma once
 
 #include <optional>
@@ -10,11 +10,11 @@
 
 namespace trisect {
 
-// The ray through a pixel's centre, from the parameters' own numbers; t counts from the anchor, the
-// point of the ray near the scene's centre.
+// The ray through a pixel's centre, computed from the parameters in single precision as the kernels
+// have them; t counts from the point of the ray at depth 0 of the camera's frame.
 struct OraclePixelRay {
   OracleRay ray;
-  double anchor_distance;  // from the eye
+  double anchor_distance;  // of that point from the eye
 };
 OraclePixelRay oracle_pixel_ray(const TraceParams& params, uint32_t x, uint32_t y);
 
@@ -22,22 +22,23 @@ OraclePixelRay oracle_pixel_ray(const TraceParams& params, uint32_t x, uint32_t 
 // from the eye to the anchor.
 constexpr double kMotion = 1e-7;
 
-// progress: as oracle_frame has it.
+// The oracle's answer for each pixel, on all cores. progress: as oracle_frame has it.
 std::optional<OracleFrame> trace_with_oracle(const BakedScene& scene, const TraceParams& params,
                                              const Progress& progress);
 
-// Whether light reaches what a ray along `view` met at these weights of a triangle: what it meets
-// on its way to the light. Where the surface itself turns away from the light, that is the surface.
+// The answer of the shadow ray from what a ray along `view` met at these weights of a triangle: a
+// hit is in the way of the light. Where the surface faces away from the light the answer is the
+// surface itself.
 OracleAnswer oracle_shadow(const Oracle& oracle, const BakedScene& scene, const TraceParams& params,
                            uint32_t triangle, const glm::dvec3& weights, const glm::dvec3& view);
 
-// Darkens the pixels of frame_of() that light does not reach. progress: as parallel_rows has it, of
-// rows; false: it stopped the work.
+// Gives the pixels of frame_of() that are in shadow the shadow's colour, on all cores. progress
+// counts rows, as parallel_rows has it; returns false if it stopped the work.
 bool cast_oracle_shadows(const OracleFrame& answers, const BakedScene& scene,
                          const TraceParams& params, Frame& frame, const Progress& progress);
 
-// The answers as a frame, shaded as the robust solver's are, with AOVs; rounded to single
-// precision.
+// The answers as a frame with AOVs, rounded to single precision and shaded as the robust solver's
+// hits are.
 Frame frame_of(const OracleFrame& answers, const BakedScene& scene, const TraceParams& params);
 
 }  // namespace trisect

@@ -1,4 +1,4 @@
-// The tree over the parts' boxes: complete, conservative, in order.
+// The tree over the subpatches' boxes: complete, conservative, in order.
 #include "app/bake/bvh.h"
 
 #include <gtest/gtest.h>
@@ -32,18 +32,18 @@ bool contains(const BvhEntry& e, const glm::vec3& lo, const glm::vec3& hi) {
          glm::all(glm::greaterThanEqual(hi_of(e), hi));
 }
 
-// What a ray goes through that every box lets in, in its order; every entry's box must contain
-// those below it.
-std::vector<uint32_t> parts_below(const std::vector<BvhEntry>& bvh, const BakedScene& scene) {
+// The leaves of the tree in the order in which a ray that meets every box comes to them. Expects
+// that every entry's box contains those below it.
+std::vector<uint32_t> subpatches_below(const std::vector<BvhEntry>& bvh, const BakedScene& scene) {
   const std::vector<SubpatchBox> boxes = subpatch_boxes(scene);
-  std::vector<uint32_t> parts;
+  std::vector<uint32_t> leaves;
   std::size_t visited = 0;
   for (uint32_t item = 0; item != BVH_END && visited <= bvh.size(); ++visited) {
     const BvhEntry& entry = bvh.at(item);
     if (entry.link >= BVH_LEAF) {
-      const uint32_t part = entry.link - BVH_LEAF;
-      EXPECT_TRUE(contains(entry, boxes.at(part).lo, boxes.at(part).hi)) << part;
-      parts.push_back(part);
+      const uint32_t leaf = entry.link - BVH_LEAF;
+      EXPECT_TRUE(contains(entry, boxes.at(leaf).lo, boxes.at(leaf).hi)) << leaf;
+      leaves.push_back(leaf);
       item = entry.next;
     } else if (entry.link == BVH_EMPTY) {
       item = entry.next;
@@ -57,24 +57,24 @@ std::vector<uint32_t> parts_below(const std::vector<BvhEntry>& bvh, const BakedS
     }
   }
   EXPECT_EQ(visited, bvh.size());
-  return parts;
+  return leaves;
 }
 
-void expect_all_parts_once(const std::vector<BvhEntry>& bvh, const BakedScene& scene) {
-  std::vector<uint32_t> parts = parts_below(bvh, scene);
-  std::sort(parts.begin(), parts.end());
+void expect_all_subpatches_once(const std::vector<BvhEntry>& bvh, const BakedScene& scene) {
+  std::vector<uint32_t> leaves = subpatches_below(bvh, scene);
+  std::sort(leaves.begin(), leaves.end());
   std::vector<uint32_t> expected;
-  for (uint32_t part = 0; part < scene.subpatches.size(); ++part) {
-    if (scene.subpatches[part].skip == 0) expected.push_back(part);
+  for (uint32_t i = 0; i < scene.subpatches.size(); ++i) {
+    if (scene.subpatches[i].skip == 0) expected.push_back(i);
   }
-  EXPECT_EQ(parts, expected);
+  EXPECT_EQ(leaves, expected);
 }
 
-TEST(Bvh, HoldsEveryPartOnce) {
+TEST(Bvh, HoldsEverySubpatchOnce) {
   for (const std::string& name : test::asset_names()) {
     const BakedScene scene = scene_of(name, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
     SCOPED_TRACE(name);
-    expect_all_parts_once(build_bvh(scene), scene);
+    expect_all_subpatches_once(build_bvh(scene), scene);
   }
 }
 
@@ -83,17 +83,17 @@ TEST(Bvh, HoldsOnePatch) {
   scene.subpatches.resize(1);
   const std::vector<BvhEntry> bvh = build_bvh(scene);
   EXPECT_EQ(bvh.size(), kChildren);
-  expect_all_parts_once(bvh, scene);
+  expect_all_subpatches_once(bvh, scene);
 }
 
 TEST(Bvh, HoldsPatchesThatLieInOnePlace) {
   BakedScene scene = scene_of("sphere-20", {SURFACE_PHONG, 0.65, SHELL_NORMAL});
   std::fill(scene.triangles.begin(), scene.triangles.end(), scene.triangles[0]);
   scene.subpatches = bake_subpatches(scene);
-  expect_all_parts_once(build_bvh(scene), scene);
+  expect_all_subpatches_once(build_bvh(scene), scene);
 }
 
-// The tree of one surface serves another one where patches are divided alike.
+// A tree can be refitted to another surface that divides the patches in the same way.
 TEST(Bvh, IsRefittedToAnotherSurface) {
   BakedScene first = scene_of("torus", {SURFACE_PHONG, 0.65, SHELL_NORMAL});
   first.bvh = build_bvh(first);
@@ -102,8 +102,8 @@ TEST(Bvh, IsRefittedToAnotherSurface) {
     const BakedScene scene = scene_of("torus", choice);
     const auto bvh = refitted_bvh(scene, first);
     ASSERT_TRUE(bvh.has_value());
-    expect_all_parts_once(*bvh, scene);
-    // No box is larger than what it has to contain.
+    expect_all_subpatches_once(*bvh, scene);
+    // The boxes of the root's children together are no larger than in a tree built anew.
     const std::vector<BvhEntry> built = build_bvh(scene);
     const auto all_of = [](const std::vector<BvhEntry>& tree) {
       glm::vec3 lo(1e30F);
@@ -119,7 +119,7 @@ TEST(Bvh, IsRefittedToAnotherSurface) {
   }
 }
 
-TEST(Bvh, IsNotRefittedToOtherParts) {
+TEST(Bvh, IsNotRefittedToOtherSubpatches) {
   BakedScene first = scene_of("teapot", {SURFACE_PHONG, 0.65, SHELL_NORMAL});
   const BakedScene flat = scene_of("teapot", {SURFACE_FLAT, 0.0, SHELL_NORMAL});
   EXPECT_FALSE(refitted_bvh(flat, first).has_value()) << "there is no tree";
@@ -153,7 +153,7 @@ TEST(Bvh, BoxesContainTheSurface) {
   }
 }
 
-// Seen along the axes' diagonal the far corner's child comes last.
+// Along the diagonal of the octants the first child is the nearest and the last one the farthest.
 TEST(Bvh, PutsChildrenInTheOrderOfOctants) {
   const BakedScene scene = scene_of("sphere-320", {SURFACE_PHONG, 0.65, SHELL_NORMAL});
   const std::vector<BvhEntry> bvh = build_bvh(scene);

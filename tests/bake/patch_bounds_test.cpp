@@ -1,5 +1,4 @@
-// The bounds are proven in patch_bounds.h; these tests would find a mistake in the proof or in its
-// code.
+// The bounds are proven in patch_bounds.h; these tests look for mistakes in the proof and the code.
 #include "app/bake/patch_bounds.h"
 
 #include <gtest/gtest.h>
@@ -14,8 +13,8 @@ namespace {
 
 using glm::dvec3;
 
-// The farthest that a point of the patch lies from the centre of its Domain, over the radius.
-double reach(const SurfaceChoice& choice, const Triangle& baked) {
+// The largest distance of a point of the patch from the centre of its Domain, over the radius.
+double farthest_over_radius(const SurfaceChoice& choice, const Triangle& baked) {
   const in_double::Triangle tri = to_double(baked);
   double farthest = 0.0;
   for (const dvec3& w : test::weight_grid(24)) {
@@ -46,7 +45,7 @@ TEST(PatchBounds, ContainEveryPatchOfEveryAsset) {
     const Mesh mesh = test::load_asset(name);
     for (const SurfaceChoice& choice : cases()) {
       for (const Triangle& tri : bake(mesh, choice).triangles) {
-        ASSERT_LE(reach(choice, tri), 1.0)
+        ASSERT_LE(farthest_over_radius(choice, tri), 1.0)
             << name << " surface " << choice.surface << " shell " << choice.shell;
       }
     }
@@ -60,7 +59,7 @@ TEST(PatchBounds, ContainRandomPatchesWithNormalsInEveryDirection) {
     const test::RandomPatch patch = test::random_patch(random, i % 3 == 0 ? 180.0 : 85.0);
     for (const SurfaceChoice& choice : cases()) {
       const Triangle tri = bake_triangle(patch.positions, patch.normals, choice);
-      ASSERT_LE(reach(choice, tri), 1.0)
+      ASSERT_LE(farthest_over_radius(choice, tri), 1.0)
           << "patch " << i << " surface " << choice.surface << " shell " << choice.shell;
     }
   }
