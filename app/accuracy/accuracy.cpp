@@ -11,27 +11,37 @@ namespace {
 
 using glm::dvec3;
 
-// The pixels that both hit, one after the other.
+// One number for each pixel that both hit.
 struct Errors {
   std::vector<double> off_surface;
   std::vector<double> depth_ulp;
   std::vector<double> normal_degrees;
-};
 
-}  // namespace
+  void add(const ClassifiedRay& ray, const PixelAovs& aov, const OracleRoot& root) {
+    off_surface.push_back(ray.off_surface);
+    depth_ulp.push_back(ray.depth_error / ulp_of(aov.normal_z.w));
+    if (aov.triangle == root.triangle) {
+      normal_degrees.push_back(degrees_between(dvec3(aov.geometric_u), root.normal));
+    }
+  }
+};
 
 bool has_nan(const vec4& color, const PixelAovs& aov) {
   return glm::any(glm::isnan(color)) || glm::any(glm::isnan(aov.normal_z)) ||
          glm::any(glm::isnan(aov.geometric_u)) || std::isnan(aov.v);
 }
 
-PixelError pixel_error(const TraceParams& params, uint32_t x, uint32_t y,
-                       const OracleAnswer& answer, const PixelAovs& aov) {
-  const OraclePixelRay pixel = oracle_pixel_ray(params, x, y);
-  const double depth =
-      std::abs(static_cast<double>(aov.normal_z.w) - (pixel.anchor_distance + answer.root.t));
-  return {depth * std::abs(glm::dot(answer.root.normal, pixel.ray.direction)),
-          depth / ulp_of(aov.normal_z.w)};
+}  // namespace
+
+ClassifiedRay classify_pixel(const Frame& frame, const OracleFrame& truth, std::size_t pixel,
+                             const TraceParams& params, double radius) {
+  const PixelAovs& aov = frame.aovs[pixel];
+  const OraclePixelRay ray = oracle_pixel_ray(params, static_cast<uint32_t>(pixel % truth.width),
+                                              static_cast<uint32_t>(pixel / truth.width));
+  // The frame's depth counts from the eye, the oracle's t from the ray's anchor.
+  const FoundHit found{aov.triangle, static_cast<double>(aov.normal_z.w) - ray.anchor_distance,
+                       has_nan(frame.colors[pixel], aov)};
+  return classify(found, truth.pixels[pixel], ray.ray.direction, radius);
 }
 
 Accuracy accuracy_of(const Frame& frame, const OracleFrame& truth, const BakedScene& scene,
@@ -49,28 +59,29 @@ Accuracy accuracy_of(const Frame& frame, const OracleFrame& truth, const BakedSc
     if (aov.candidates > 0) {
       evaluations.push_back(static_cast<double>(aov.evaluations) / aov.candidates);
     }
-    if (has_nan(frame.colors[i], aov)) ++accuracy.nans;
     if (answer.hit) ++accuracy.hits;
-    if (!answer.decidable) {
-      ++accuracy.undecidable;
-      continue;
-    }
-    const bool hit = aov.triangle != NO_TRIANGLE;
-    if (hit && !answer.hit) ++accuracy.wrong_hits;
-    if (!hit && answer.hit) ++accuracy.missed;
-    if (!hit || !answer.hit) continue;
-    const auto x = static_cast<uint32_t>(i % truth.width);
-    const auto y = static_cast<uint32_t>(i / truth.width);
-    const PixelError error = pixel_error(params, x, y, answer, aov);
-    if (aov.triangle != answer.root.triangle && !(error.off_surface <= kTie * scene.radius)) {
-      ++accuracy.wrong_patches;
-      continue;
-    }
-    errors.off_surface.push_back(error.off_surface / scene.radius);
-    errors.depth_ulp.push_back(error.depth_ulp);
-    // A tie's normal is that of the other face.
-    if (aov.triangle == answer.root.triangle) {
-      errors.normal_degrees.push_back(degrees_between(dvec3(aov.geometric_u), answer.root.normal));
+    if (!answer.decidable) ++accuracy.undecidable;
+    const ClassifiedRay ray = classify_pixel(frame, truth, i, params, scene.radius);
+    switch (ray.verdict) {
+      case RayVerdict::undecidable:
+      case RayVerdict::both_miss:
+        break;
+      case RayVerdict::not_a_number:
+        ++accuracy.nans;
+        break;
+      case RayVerdict::wrong_hit:
+        ++accuracy.wrong_hits;
+        break;
+      case RayVerdict::missed:
+        ++accuracy.missed;
+        break;
+      case RayVerdict::wrong_patch:
+        ++accuracy.wrong_patches;
+        break;
+      case RayVerdict::hit:
+      case RayVerdict::wrong_root:
+        errors.add(ray, aov, answer.root);
+        break;
     }
   }
   accuracy.off_surface = quantiles_of(std::move(errors.off_surface));

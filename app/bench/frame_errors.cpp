@@ -16,7 +16,7 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 
-// Where the frame is hit and one of the four pixels beside is not.
+// The hit pixels that have a pixel without a hit to the left, right, above or below.
 std::vector<dvec2> outline_of(const Frame& frame) {
   const auto hit = [&](uint32_t x, uint32_t y) {
     return frame.aovs[std::size_t{y} * frame.width + x].triangle != NO_TRIANGLE;
@@ -64,26 +64,23 @@ FrameErrors errors_of(const Frame& frame, const OracleFrame& truth, const Frame&
   for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
     const OracleAnswer& answer = truth.pixels[i];
     const PixelAovs& aov = frame.aovs[i];
+    const ClassifiedRay ray = classify_pixel(frame, truth, i, params, scene.radius);
+    if (ray.verdict == RayVerdict::not_a_number) ++errors.nans;
     if (!answer.decidable) {
       ++errors.undecidable;
       continue;
     }
-    const bool nan = has_nan(frame.colors[i], aov);
-    if (nan) ++errors.nans;
-    const bool hit = aov.triangle != NO_TRIANGLE;
-    if (!hit && !answer.hit) continue;
+    if (ray.verdict == RayVerdict::both_miss) continue;
     ++seen;
-    if (hit != answer.hit || nan) {
-      errors.wrong += hit && !answer.hit ? 1 : 0;
-      errors.missed += !hit && answer.hit ? 1 : 0;
+    if (!both_hit(ray.verdict)) {
+      errors.wrong += ray.verdict == RayVerdict::wrong_hit ? 1 : 0;
+      errors.missed += ray.verdict == RayVerdict::missed ? 1 : 0;
       squares += 1.0;
       continue;
     }
-    const auto x = static_cast<uint32_t>(i % truth.width);
-    const auto y = static_cast<uint32_t>(i / truth.width);
-    const PixelError error = pixel_error(params, x, y, answer, aov);
-    off.push_back(error.off_surface / scene.radius);
-    ulp.push_back(error.depth_ulp);
+    // A wrong patch or root counts by its distance, like any other error.
+    off.push_back(ray.off_surface);
+    ulp.push_back(ray.depth_error / ulp_of(aov.normal_z.w));
     degrees.push_back(degrees_between(dvec3(aov.geometric_u), answer.root.normal));
     const double counted = std::min(off.back(), 1.0);
     squares += counted * counted;

@@ -7,6 +7,7 @@
 #include <random>
 #include <utility>
 
+#include "app/accuracy/classify.h"
 #include "app/bake/bake.h"
 #include "app/bake/subpatch_bounds.h"
 #include "app/cli/interrupt.h"
@@ -22,16 +23,16 @@ namespace {
 
 using glm::dvec3;
 
-// How steeply rays meet the surface where that is not varied.
+// The angle between the rays and the surface on all axes but the one that varies it.
 constexpr double kUsualDegrees = 50.0;
 
 struct Axis {
-  const char* name;
+  const char* name;  // as in StabilityAxis, like the next two
   const char* what;
   bool logarithmic;
   std::vector<double> values;
   std::function<Mesh(double)> mesh;
-  std::function<double(double)> degrees;  // between the rays and the surface
+  std::function<double(double)> degrees;  // angle between the rays and the surface
 };
 
 struct Solver {
@@ -45,14 +46,15 @@ constexpr Solver kSolvers[] = {{"robust", SOLVER_ROBUST, SHELL_NORMAL, 10},
                                {"thesis, Rank 10", SOLVER_BISECT, SHELL_HEIGHT, 10},
                                {"thesis, Rank 30", SOLVER_BISECT, SHELL_HEIGHT, 30}};
 
-// 10^from, ..., 10^to.
+// The powers of ten from 10^from to 10^to.
 std::vector<double> powers(int from, int to) {
   std::vector<double> values;
   for (int e = from; e <= to; ++e) values.push_back(std::pow(10.0, e));
   return values;
 }
 
-// Stretched along x, normals as a surface's that is stretched so.
+// Stretches a mesh along x. Normals transform by the inverse, so that they stay normal to a surface
+// that is stretched alike.
 Mesh stretched(Mesh mesh, double factor) {
   for (dvec3& position : mesh.positions) position.x *= factor;
   for (dvec3& normal : mesh.normals) {
@@ -86,7 +88,8 @@ std::vector<Axis> axes() {
        usual}};
 }
 
-// Rays at any points of the surface, from the side of its normal.
+// Rays at random points of the surface, at this angle to it, from the side to which its normal
+// points.
 std::vector<CastRay> rays_at(const BakedScene& scene, double degrees, uint32_t count,
                              std::mt19937_64& random) {
   std::vector<CastRay> rays;
@@ -106,7 +109,7 @@ StabilityPoint measure(const Axis& axis, const Solver& solver, double value, uin
   const SurfaceChoice choice{SURFACE_PHONG, 0.65, solver.shell};
   const BakedScene scene =
       solver.solver == SOLVER_ROBUST ? bake_with_subpatches(mesh, choice) : bake(mesh, choice);
-  // The same points and directions for all values.
+  // Seeded alike for all values, so that these differ in nothing else.
   std::mt19937_64 random(5);
   const std::vector<CastRay> rays = rays_at(scene, axis.degrees(value), count, random);
   TraceSettings settings;
@@ -119,22 +122,16 @@ StabilityPoint measure(const Axis& axis, const Solver& solver, double value, uin
   point.value = value;
   double squares = 0.0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const CastHit& hit = hits[i];
-    const OracleAnswer& answer = answers[i];
-    if (!std::isfinite(hit.z) || !std::isfinite(hit.u) || !std::isfinite(hit.v)) ++point.nans;
-    if (!answer.decidable) continue;
+    const ClassifiedRay ray =
+        classify(found_hit(hits[i]), answers[i], to_oracle_ray(rays[i]).direction, scene.radius);
+    point.nans += ray.verdict == RayVerdict::not_a_number ? 1 : 0;
+    if (!answers[i].decidable) continue;
     ++point.decided;
-    const bool met = hit.triangle != NO_TRIANGLE;
-    point.wrong += met && !answer.hit ? 1 : 0;
-    point.missed += !met && answer.hit ? 1 : 0;
-    if (!met && !answer.hit) continue;
-    double off = 1.0;
-    if (met && answer.hit && std::isfinite(hit.z)) {
-      const double depth = std::abs(static_cast<double>(hit.z) - answer.root.t);
-      off = std::min(1.0,
-                     depth / scene.radius *
-                         std::abs(glm::dot(answer.root.normal, to_oracle_ray(rays[i]).direction)));
-    }
+    point.wrong += ray.verdict == RayVerdict::wrong_hit ? 1 : 0;
+    point.missed += ray.verdict == RayVerdict::missed ? 1 : 0;
+    if (ray.verdict == RayVerdict::both_miss) continue;
+    // A wrong patch or root counts by its distance, like any other error.
+    const double off = both_hit(ray.verdict) ? std::min(1.0, ray.off_surface) : 1.0;
     squares += off * off;
   }
   point.error = std::sqrt(squares / static_cast<double>(point.decided));

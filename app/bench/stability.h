@@ -1,5 +1,5 @@
-// Numerical stability: errors of the solvers as one thing about a scene or its rays goes to
-// extremes.
+// Numerical stability: how the solvers' errors grow as one property of a scene or of its rays goes
+// to extremes.
 #pragma once
 
 #include <cstddef>
@@ -9,18 +9,18 @@
 
 namespace trisect::bench {
 
-// One value of what is varied.
+// The errors at one value of the property that is varied. Rays are judged by classify(), but a
+// wrong patch or root counts by its distance only.
 struct StabilityPoint {
-  double value = 0.0;
-  // Of the rays that the oracle decides: root of the mean square of the distance off the surface
-  // over the scene's radius; a ray that only one of the two has hitting counts as off by the
-  // radius.
-  // NaN if it decides none.
+  double value = 0.0;  // of the property, in the unit that StabilityAxis::what names
+  // Root mean square over the rays that the oracle decides of the distance off the surface,
+  // |depth error| |n.d|, over the scene's radius. A ray that only one of solver and oracle sees
+  // hit, or that is NaN, counts as off by the radius. NaN if the oracle decides no ray.
   double error = 0.0;
   std::size_t decided = 0;
-  std::size_t wrong = 0;
-  std::size_t missed = 0;
-  std::size_t nans = 0;
+  std::size_t wrong = 0;   // of these, hits where the oracle misses
+  std::size_t missed = 0;  // of these, misses where the oracle hits
+  std::size_t nans = 0;    // of all rays; these count in none of the two above
 };
 
 struct StabilityCurve {
@@ -29,13 +29,14 @@ struct StabilityCurve {
 };
 
 struct StabilityAxis {
-  std::string name;  // for files
-  std::string what;  // is varied, with its unit
-  bool logarithmic = true;
-  std::vector<StabilityCurve> curves;
+  std::string name;                    // a word, for files
+  std::string what;                    // the property that is varied, and its unit
+  bool logarithmic = true;             // whether plots show its values on a logarithmic scale
+  std::vector<StabilityCurve> curves;  // one for each solver, all at the same values
 };
 
-// `rays` for every point, by the kernels as C++, which agree with Vulkan's bit for bit.
+// Measures all axes with `rays` rays at every value, by the kernels compiled as C++, which agree
+// with Vulkan's bit for bit. Shows its progress on standard error; throws Interrupted after Ctrl-C.
 std::vector<StabilityAxis> measure_stability(uint32_t rays);
 
 }  // namespace trisect::bench

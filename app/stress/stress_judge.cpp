@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/accuracy/classify.h"
 #include "app/bake/subpatch_bounds.h"
 #include "app/base/parallel_rows.h"
 #include "app/dispatch/trace_settings.h"
@@ -13,29 +14,6 @@ namespace {
 using glm::dvec3;
 
 constexpr double kUlp = 0x1p-23;
-
-bool has_nan(const CastHit& hit) {
-  return !std::isfinite(hit.z) || !std::isfinite(hit.u) || !std::isfinite(hit.v);
-}
-
-// Judges one decidable ray that was hit; adds its error if it is not wrong.
-void judge_hit(const OracleRay& ray, const CastHit& hit, const OracleAnswer& answer, double radius,
-               CheckedOutcome& outcome) {
-  if (!answer.hit) {
-    ++outcome.wrong;
-    return;
-  }
-  const double slant = std::abs(glm::dot(ray.direction, answer.root.normal));
-  const double off = std::abs(static_cast<double>(hit.z) - answer.root.t);
-  const bool same_triangle = hit.triangle == answer.root.triangle;
-  const bool tie = off * std::max(slant, 1e-3) <= 1e-6 * radius;
-  const bool other_root = off * slant > 1e-2 * radius;
-  if (same_triangle ? other_root : !tie) {
-    ++outcome.wrong;
-    return;
-  }
-  outcome.errors.push_back(off * slant / radius);
-}
 
 // Who casts along rays that begin behind their anchors needs no help; the bisection marches from
 // its ray's origin, which therefore moves to the beginning.
@@ -120,14 +98,28 @@ CheckedOutcome judge(std::span<const CastRay> rays, std::span<const CastHit> hit
   outcome.rays = rays.size();
   for (std::size_t i = 0; i < rays.size(); ++i) {
     outcome.evaluations += hits[i].evaluations;
-    if (has_nan(hits[i])) {
-      ++outcome.nans;
-    } else if (!answers[i].decidable) {
-      ++outcome.undecidable;
-    } else if (hits[i].triangle != NO_TRIANGLE) {
-      judge_hit(to_oracle_ray(rays[i]), hits[i], answers[i], radius, outcome);
-    } else if (answers[i].hit) {
-      ++outcome.missed;
+    const ClassifiedRay ray =
+        classify(found_hit(hits[i]), answers[i], to_oracle_ray(rays[i]).direction, radius);
+    switch (ray.verdict) {
+      case RayVerdict::both_miss:
+        break;
+      case RayVerdict::not_a_number:
+        ++outcome.nans;
+        break;
+      case RayVerdict::undecidable:
+        ++outcome.undecidable;
+        break;
+      case RayVerdict::missed:
+        ++outcome.missed;
+        break;
+      case RayVerdict::wrong_hit:
+      case RayVerdict::wrong_patch:
+      case RayVerdict::wrong_root:
+        ++outcome.wrong;
+        break;
+      case RayVerdict::hit:
+        outcome.errors.push_back(ray.off_surface);
+        break;
     }
   }
   std::sort(outcome.errors.begin(), outcome.errors.end());

@@ -11,13 +11,23 @@
 namespace trisect::view {
 namespace {
 
-float error_at(const BakedScene& scene, const TraceParams& params, uint32_t x, uint32_t y,
-               const OracleAnswer& answer, const PixelAovs& aov) {
-  if (!answer.decidable) return ERROR_UNDECIDED;
-  const bool hit = aov.triangle != NO_TRIANGLE;
-  if (hit != answer.hit) return ERROR_WRONG;
-  if (!hit) return ERROR_NOTHING;
-  return static_cast<float>(pixel_error(params, x, y, answer, aov).off_surface / scene.radius);
+// What the error map shows of a pixel: see ErrorMap::errors.
+float shown_error(const ClassifiedRay& ray) {
+  switch (ray.verdict) {
+    case RayVerdict::undecidable:
+      return ERROR_UNDECIDED;
+    case RayVerdict::both_miss:
+      return ERROR_NOTHING;
+    case RayVerdict::not_a_number:
+    case RayVerdict::wrong_hit:
+    case RayVerdict::missed:
+      return ERROR_WRONG;
+    case RayVerdict::hit:
+    case RayVerdict::wrong_patch:
+    case RayVerdict::wrong_root:
+      break;
+  }
+  return static_cast<float>(ray.off_surface);
 }
 
 ErrorMap map_of(const BakedScene& scene, const TraceParams& params, const Frame& frame,
@@ -25,12 +35,9 @@ ErrorMap map_of(const BakedScene& scene, const TraceParams& params, const Frame&
   ErrorMap map;
   map.width = frame.width;
   map.height = frame.height;
-  for (uint32_t y = 0; y < frame.height; ++y) {
-    for (uint32_t x = 0; x < frame.width; ++x) {
-      const std::size_t i = std::size_t{y} * frame.width + x;
-      map.errors.emplace_back(error_at(scene, params, x, y, truth.pixels[i], frame.aovs[i]), 0.0F,
-                              0.0F, 0.0F);
-    }
+  for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+    const ClassifiedRay ray = classify_pixel(frame, truth, i, params, scene.radius);
+    map.errors.emplace_back(shown_error(ray), 0.0F, 0.0F, 0.0F);
   }
   const Accuracy accuracy = accuracy_of(frame, truth, scene, params);
   map.summary = fmt::format(

@@ -1,4 +1,5 @@
-// The robust solver's promises, pixel by pixel against the oracle, and the measure itself.
+// What the robust solver promises of its errors, measured against the oracle at every pixel; and
+// that the measurement notices errors.
 #include "app/accuracy/accuracy.h"
 
 #include <gtest/gtest.h>
@@ -60,7 +61,7 @@ TEST_P(Promise, IsKept) {
   EXPECT_EQ(a.wrong_patches, 0U);
   EXPECT_EQ(a.nans, 0U);
   EXPECT_LE(a.undecidable, a.pixels / 5000);
-  // Over the radius: about two roundings of a position, and what none may exceed.
+  // Over the radius. 99 of 100 pixels are within about two roundings of a position.
   EXPECT_LE(a.off_surface.p99, 2.5e-7);
   EXPECT_LE(a.off_surface.max, 2e-6);
   EXPECT_LE(a.normal_degrees.p99, 0.05);
@@ -89,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(Assets, Promise,
 
 class Robust : public test::GpuTest {};
 
-// The sphere surface on data from the unit sphere is that sphere.
+// Where positions and normals are those of the unit sphere, the sphere surface is that sphere.
 TEST_F(Robust, SphereIsMetOnTheSphere) {
   const Measured m = measure("sphere-20", {SURFACE_SPHERE, 0.0, SHELL_NORMAL});
   double worst = 0.0;
@@ -127,7 +128,7 @@ TEST_F(Robust, TheCpuHasTheSameBits) {
   }
 }
 
-// The measure notices one pixel, in whatever way it is off.
+// One wrong pixel is noticed, in whatever way it is wrong.
 TEST_F(Robust, TheMeasureCanFail) {
   Measured m = measure("sphere-20", {});
   const std::size_t middle = 30 * 80 + 40;
