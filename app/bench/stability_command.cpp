@@ -35,7 +35,7 @@ bench::Table table_of(const StabilityAxis& axis) {
     std::vector<std::string> row{fmt::format("{:g}", axis.curves[0].points[i].value)};
     for (const StabilityCurve& curve : axis.curves) {
       const StabilityPoint& point = curve.points[i];
-      row.push_back(point.decided > 0 ? fmt::format("{:.1e}", point.error) : "");
+      row.push_back(point.decided > 0 ? fmt::format("{:.1e}", point.error) : "undecided");
       row.push_back(fmt::to_string(point.wrong));
       row.push_back(fmt::to_string(point.missed));
       row.push_back(fmt::to_string(point.nans));

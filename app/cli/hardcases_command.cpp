@@ -46,6 +46,7 @@ nlohmann::ordered_json json_of(const StressRow& row) {
           {"rank", row.rank},
           {"rays", outcome.rays},
           {"undecidable", outcome.undecidable},
+          {"most_undecidable", row.most_undecidable},
           {"wrong", outcome.wrong},
           {"missed", outcome.missed},
           {"depth_error_ulp_p50", row.error_ulp(0.5)},
@@ -90,22 +91,17 @@ int run_on(const HardcasesOptions& options, const StressBackend& backend) {
   fmt::print("device {}, driver {}\n", backend.device, backend.driver);
   print_header();
   const std::vector<StressRow> rows = run_all(backend);
-  std::size_t binding = 0;
-  std::size_t failed = 0;
-  for (const StressRow& row : rows) {
-    binding += row.binding() ? 1 : 0;
-    failed += row.binding() && row.verdict != "pass" ? 1 : 0;
-  }
+  const BindingRows binding = count_binding(rows);
   fmt::print(
       "ulp: depth error across the surface, |dz| |n.v|, in units of 2^-23 of the scene's radius "
       "(of the eye's distance in images)\n"
-      "{} of {} rows of the robust solver in the normal shell pass\n",
-      binding - failed, binding);
+      "{} of {} rows of the robust solver in the normal shell pass, {} undecided\n",
+      binding.passed, binding.all, binding.undecided);
   if (json) {
     json->write(to_json(backend, rows));
     json->commit();
   }
-  return failed == 0 ? exit_done : exit_different;
+  return binding.failed() == 0 ? exit_done : exit_different;
 }
 
 }  // namespace

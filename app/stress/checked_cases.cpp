@@ -1,4 +1,4 @@
-// Hard images and hard files: cases whose answer is checked by what they are, not ray by ray alone.
+// Hard images and hard files: cases that are not lists of rays, each with a check of its own.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ BakedScene robust_scene(const Mesh& mesh) {
   return bake_with_subpatches(mesh, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
 }
 
-// The pixel's ray, rounded to single precision as the kernel's is.
+// A pixel's ray, rounded to single precision like the kernel's.
 CastRay rounded(const OracleRay& ray) {
   return {vec4(glm::vec3(ray.origin), static_cast<float>(ray.t_min)),
           vec4(glm::vec3(ray.direction), 0.0F)};
@@ -36,8 +36,9 @@ bool all_finite(const vec4& color, const PixelAovs& aovs) {
          std::isfinite(sum.w);
 }
 
-// Renders and judges every pixel by the oracle. The depth of an image counts from the eye, and is
-// held to the eye's distance where that is more than the radius.
+// Renders an image and judges every pixel by the oracle. Depths in an image count from the eye, and
+// their rounding grows with the eye's distance, so errors are taken relative to that distance where
+// it exceeds the radius.
 CheckedOutcome judged_image(const StressBackend& backend, const BakedScene& scene,
                             const TraceSettings& settings) {
   const TraceParams params = make_params(scene, settings);
@@ -80,7 +81,7 @@ CheckedOutcome image_of_sphere(const StressBackend& backend, uint32_t width, uin
   return judged_image(backend, scene, framed(mesh, scene, width, height, fov));
 }
 
-// The eye is so near the surface that some of it is nearer than the near plane.
+// The eye is so near to the surface that a part of it lies in front of the near plane.
 CheckedOutcome clipped_by_near_plane(const StressBackend& backend) {
   const BakedScene scene = robust_scene(stress::sphere());
   const stress::SurfacePoint point = stress::point_at(scene, 0, dvec3(1.0 / 3.0));
@@ -93,7 +94,7 @@ CheckedOutcome clipped_by_near_plane(const StressBackend& backend) {
   return judged_image(backend, scene, settings);
 }
 
-// The whole image is one patch.
+// One patch covers the whole image.
 CheckedOutcome filled_by_one_patch(const StressBackend& backend) {
   const Mesh mesh = stress::leaning_patch(30.0);
   const BakedScene scene = robust_scene(mesh);
@@ -106,7 +107,8 @@ CheckedOutcome filled_by_one_patch(const StressBackend& backend) {
   return judged_image(backend, scene, settings);
 }
 
-// Too large an image to judge by the oracle: no NaN, and the model where a small image has it.
+// The image is too large to judge by the oracle. It may have no NaN, and about the same share of
+// its pixels must hit as in a small image.
 CheckedOutcome large_image(const StressBackend& backend) {
   constexpr uint32_t width = 8192;
   constexpr uint32_t height = 128;
@@ -123,7 +125,7 @@ CheckedOutcome large_image(const StressBackend& backend) {
   small.width = width / 64;
   small.height = height / 64;
   const Frame coarse = backend.render(scene, make_params(scene, small), {SOLVER_ROBUST});
-  // A coarse pixel stands for 64 by 64; the outline takes up some of them.
+  // Each pixel of the small image stands for 64 by 64 pixels, of which not all hit on the outline.
   const double expected = static_cast<double>(coarse.hits()) * 64.0 * 64.0;
   const double found = static_cast<double>(frame.hits());
   if (found < 0.5 * expected) outcome.missed = static_cast<std::size_t>(expected - found);
@@ -136,11 +138,12 @@ const char* const kTetrahedron =
     "v 1 1 1\nv -1 -1 1\nv -1 1 -1\nv 1 -1 -1\n"
     "f 1//1 3//3 2//2\nf 1//1 2//2 4//4\nf 1//1 4//4 3//3\nf 2//2 3//3 4//4\n";
 
-// A tetrahedron with these four lines of normals.
+// A tetrahedron in OBJ text, with these four lines of normals.
 std::string with_normals(const std::string& normals) {
   return normals + kTetrahedron;
 }
 
+// The file must be refused as bad input.
 CheckedOutcome expect_refusal(const std::string& text) {
   CheckedOutcome outcome;
   outcome.rays = 1;
@@ -154,7 +157,7 @@ CheckedOutcome expect_refusal(const std::string& text) {
   return outcome;
 }
 
-// The file is read, and its model is met like any other.
+// The file must be accepted, and rays at its model are judged by the oracle.
 CheckedOutcome expect_met(const StressBackend& backend, const std::string& text) {
   const Mesh mesh = build_mesh(parse_obj(text, "hard.obj"), "hard.obj").mesh;
   const BakedScene scene = robust_scene(mesh);
@@ -170,7 +173,7 @@ CheckedOutcome one_triangle(const StressBackend& backend) {
   return expect_met(backend, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
 }
 
-// A level plain of n by n squares, met from above: the depth is known.
+// A level plane of n by n squares, with rays from above: the right depth is known.
 CheckedOutcome many_triangles(const StressBackend& backend) {
   constexpr int n = 500;  // a storage buffer of 128 MiB holds 591
   const Mesh mesh = stress::height_grid(n, 0.0, 0.0);

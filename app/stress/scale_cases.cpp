@@ -1,4 +1,5 @@
-// Hard scales: sizes, places, distances, crowds, ranks.
+// Hard scales: very small and very large models, far from the origin or from the eye, many patches
+// along one ray; and the ranks of the bisection.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -14,19 +15,19 @@ namespace {
 using glm::dvec3;
 
 RayCase scale(std::string name, std::string what, std::function<Mesh()> mesh, int count = 200) {
-  RayCase stress;
-  stress.name = std::move(name);
-  stress.what = std::move(what);
-  stress.kind = StressKind::scale;
-  stress.mesh = std::move(mesh);
-  stress.rays = [count](const BakedScene& scene, std::mt19937_64& random) {
+  RayCase ray_case;
+  ray_case.name = std::move(name);
+  ray_case.what = std::move(what);
+  ray_case.kind = StressKind::scale;
+  ray_case.mesh = std::move(mesh);
+  ray_case.rays = [count](const BakedScene& scene, std::mt19937_64& random) {
     return stress::rays_at_surface(scene, random, count);
   };
-  stress.closed = true;
-  return stress;
+  ray_case.closed = true;
+  return ray_case;
 }
 
-// Three hundred small patches one behind the other, each turned a little.
+// 300 patches one above the other, each turned a little further about z.
 Mesh stack() {
   Mesh mesh;
   for (int i = 0; i < 300; ++i) {
@@ -54,7 +55,7 @@ std::vector<CastRay> through_stack(const BakedScene& scene, std::mt19937_64& ran
   return rays;
 }
 
-// What the pixels of an eye a million radii away see.
+// The rays of a camera that is a million radii away.
 std::vector<CastRay> from_afar(const BakedScene& scene, std::mt19937_64& random) {
   const dvec3 eye = stress::any_direction(random) * (1e6 * scene.radius);
   std::vector<CastRay> rays;
@@ -116,7 +117,7 @@ const char* kind_name(StressKind kind) {
 std::vector<RayCase> stress_ray_catalogue() {
   std::vector<RayCase> cases = stress_shape_cases();
   for (auto* more : {&stress_ray_cases, &stress_scale_cases}) {
-    for (RayCase& stress : more()) cases.push_back(std::move(stress));
+    for (RayCase& ray_case : more()) cases.push_back(std::move(ray_case));
   }
   return cases;
 }

@@ -1,4 +1,4 @@
-// Hard shapes: patches of one or a few triangles, hit from all around.
+// Hard shapes: one or a few patches, with rays from all directions.
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -15,16 +15,17 @@ using glm::dvec3;
 const dvec3 kUp(0, 0, 1);
 
 RayCase shape(std::string name, std::string what, std::function<Mesh()> mesh, int count = 240) {
-  RayCase stress;
-  stress.name = std::move(name);
-  stress.what = std::move(what);
-  stress.mesh = std::move(mesh);
-  stress.rays = [count](const BakedScene& scene, std::mt19937_64& random) {
+  RayCase ray_case;
+  ray_case.name = std::move(name);
+  ray_case.what = std::move(what);
+  ray_case.mesh = std::move(mesh);
+  ray_case.rays = [count](const BakedScene& scene, std::mt19937_64& random) {
     return stress::rays_at_surface(scene, random, count);
   };
-  return stress;
+  return ray_case;
 }
 
+// +z turned by `degrees` toward a direction in the xy plane.
 dvec3 tilted(double degrees, const dvec3& toward) {
   const double angle = glm::radians(degrees);
   return kUp * std::cos(angle) + glm::normalize(toward) * std::sin(angle);
@@ -36,7 +37,8 @@ Mesh sliver(double aspect) {
                        {tilted(30, dvec3(-1, 0, 0)), tilted(30, dvec3(1, 0, 0)), kUp});
 }
 
-// Tilts from 1e-2 to 1e-8, of both signs, a patch each.
+// One patch whose normals lean by 1 degree, and two for each lean from 1e-2 to 1e-8 degrees,
+// outward and inward.
 Mesh almost_flat() {
   Mesh mesh = stress::leaning_patch(1.0);
   double place = 0.0;
@@ -48,7 +50,7 @@ Mesh almost_flat() {
   return mesh;
 }
 
-// A cube whose faces bulge, each with normals of its own.
+// A cube whose faces bulge. Faces do not share their normals, so its edges stay sharp.
 Mesh pillow_cube() {
   Mesh mesh;
   for (int axis = 0; axis < 3; ++axis) {
@@ -68,7 +70,7 @@ Mesh pillow_cube() {
   return mesh;
 }
 
-// Three leaves on the edge from -x to x.
+// Three patches that share the edge from -x to x.
 Mesh three_leaves() {
   const dvec3 a(-1, 0, 0);
   const dvec3 b(1, 0, 0);
@@ -91,7 +93,8 @@ Mesh every_other_face_turned() {
   return mesh;
 }
 
-// Twice the same patch, once turned over, and one that overlaps it in its plane.
+// The same patch twice, once more with its winding reversed, and one that is moved in its plane and
+// overlaps them.
 Mesh coincident() {
   const Mesh once = stress::leaning_patch(25.0);
   Mesh turned = once;
@@ -101,7 +104,7 @@ Mesh coincident() {
   return stress::joined(stress::joined(twice, turned, dvec3(0.0)), once, dvec3(0.4, 0.2, 0.0));
 }
 
-// Faces of no area, one with two corners in one place, in a file with a tetrahedron.
+// A tetrahedron in a file that also has faces without area: collinear corners, coincident corners.
 Mesh with_faces_of_no_area() {
   const std::string text =
       "v 1 1 1\nv -1 -1 1\nv -1 1 -1\nv 1 -1 -1\nv 0 0 1\nv 1 1 1\n"
@@ -191,8 +194,9 @@ void add_forms(std::vector<RayCase>& cases) {
 }
 
 void add_neighbours(std::vector<RayCase>& cases) {
-  cases.push_back(
-      shape("hard-edges", "faces with normals of their own part at the edges", pillow_cube));
+  cases.push_back(shape("hard-edges",
+                        "faces that do not share normals: the curved faces part at the edges",
+                        pillow_cube));
   cases.back().surfaces = {SURFACE_FLAT, SURFACE_PHONG, SURFACE_SPHERE};
   cases.push_back(shape("non-manifold-edge", "three patches on one edge", three_leaves));
   cases.push_back(shape("open-border", "beside a border, within and without",

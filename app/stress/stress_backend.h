@@ -1,4 +1,4 @@
-// The back ends as the hard cases use them.
+// The back ends that the hard cases can run on.
 #pragma once
 
 #include "app/stress/stress_cases.h"
@@ -6,8 +6,10 @@
 
 namespace trisect {
 
-// Compiles each kernel once. The device must outlive what is returned.
+// By Vulkan. Compiles each kernel once, when a case first needs it. The device must outlive the
+// returned back end and its copies.
 StressBackend vulkan_stress_backend(const gpu::Device& device);
+// By the kernel compiled as C++ in single precision, on all cores.
 StressBackend cpu_stress_backend();
 
 }  // namespace trisect

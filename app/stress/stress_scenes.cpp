@@ -26,7 +26,7 @@ Mesh icosahedron() {
   }
   for (dvec3& p : mesh.positions) p = glm::normalize(p);
   mesh.normals = mesh.positions;
-  // Three vertices an edge's length apart, in the order that faces outward, are a face.
+  // The faces are the triples of vertices that are an edge's length apart, wound to face outward.
   const double edge = 2.0 / std::sqrt(2.0 + g);
   const auto near = [&](uint32_t i, uint32_t j) {
     return glm::distance(mesh.positions[i], mesh.positions[j]) < 1.01 * edge;

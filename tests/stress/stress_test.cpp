@@ -1,4 +1,4 @@
-// The catalogue of hard cases, and its judge.
+// The robust solver on the catalogue of hard cases, and the judge that tells whether it passes.
 #include "app/stress/stress_cases.h"
 
 #include <gtest/gtest.h>
@@ -23,35 +23,36 @@ class HardCases : public test::GpuTest {};
 
 TEST_F(HardCases, NamesAreDistinct) {
   std::set<std::string> names;
-  for (const RayCase& stress : stress_ray_catalogue())
-    EXPECT_TRUE(names.insert(stress.name).second);
-  for (const CheckedCase& stress : stress_checked_cases())
-    EXPECT_TRUE(names.insert(stress.name).second);
+  for (const RayCase& ray_case : stress_ray_catalogue())
+    EXPECT_TRUE(names.insert(ray_case.name).second);
+  for (const CheckedCase& checked_case : stress_checked_cases())
+    EXPECT_TRUE(names.insert(checked_case.name).second);
   EXPECT_GE(names.size(), 42U);
 }
 
 TEST_F(HardCases, TheRobustSolverPassesThem) {
   const StressBackend backend = vulkan_stress_backend(test::validated_device());
-  for (const RayCase& stress : stress_ray_catalogue()) {
-    for (const uint surface : stress.surfaces) {
-      const StressRow row = run_robust_row(stress, surface, backend);
+  for (const RayCase& ray_case : stress_ray_catalogue()) {
+    for (const uint surface : ray_case.surfaces) {
+      const StressRow row = run_robust_row(ray_case, surface, backend);
       EXPECT_EQ(row.verdict, "pass")
           << row.name << " on surface " << surface << ": " << row.outcome.wrong << " wrong, "
-          << row.outcome.missed << " missed, " << row.outcome.nans << " NaNs, largest error "
-          << row.error_ulp(1.0) << " ulp";
+          << row.outcome.missed << " missed, " << row.outcome.nans << " NaNs, "
+          << row.outcome.undecidable << " undecidable, largest error " << row.error_ulp(1.0)
+          << " ulp";
     }
   }
 }
 
 TEST_F(HardCases, ImagesAndFilesAreAsTheyShould) {
   const StressBackend backend = vulkan_stress_backend(test::validated_device());
-  for (const CheckedCase& stress : stress_checked_cases()) {
-    const StressRow row = run_row(stress, backend);
+  for (const CheckedCase& checked_case : stress_checked_cases()) {
+    const StressRow row = run_row(checked_case, backend);
     EXPECT_EQ(row.verdict, "pass") << row.name << ": " << row.outcome.note;
   }
 }
 
-// A flat patch with rays of which some miss, and hits that are as they should be.
+// A flat patch with rays of which one misses, and the right hits.
 struct Judged {
   BakedScene scene;
   std::vector<CastRay> rays;
@@ -124,6 +125,97 @@ TEST(HardJudge, CountsWhatCannotBeDecided) {
   judged.hits[1] = {0, 0, 0, NO_TRIANGLE, 0, 0, 0, 0};
   EXPECT_EQ(judged.outcome().undecidable, 1U);
   EXPECT_TRUE(passes(judged.outcome()));
+}
+
+TEST(HardJudge, KnowsWhatAnotherPatchOrRootIs) {
+  Judged judged;
+  judged.hits[0].triangle = 5;
+  judged.hits[0].z += 1e-4F;
+  judged.hits[1].z += 0.1F;
+  judged.hits[2].z += 1e-4F;
+  EXPECT_EQ(judged.outcome().wrong, 2U);
+  EXPECT_EQ(judged.outcome().errors.size(), 1U);
+}
+
+// A row of 100 rays of which the given number is undecidable and all others hit correctly.
+StressRow row_with(uint solver, std::size_t undecidable, double most_undecidable) {
+  StressRow row;
+  row.solver = solver;
+  row.most_undecidable = most_undecidable;
+  row.outcome.rays = 100;
+  row.outcome.undecidable = undecidable;
+  row.outcome.errors.assign(100 - undecidable, 1e-8);
+  return row;
+}
+
+TEST(StressVerdict, ARobustRowFailsIfTooManyRaysAreUndecidable) {
+  EXPECT_EQ(verdict_of(row_with(SOLVER_ROBUST, 0, 0.1), false), "pass");
+  EXPECT_EQ(verdict_of(row_with(SOLVER_ROBUST, 10, 0.1), false), "pass");
+  EXPECT_EQ(verdict_of(row_with(SOLVER_ROBUST, 11, 0.1), false), "FAIL");
+  EXPECT_EQ(verdict_of(row_with(SOLVER_ROBUST, 11, 0.11), false), "pass");
+  EXPECT_EQ(verdict_of(row_with(SOLVER_ROBUST, 100, 0.99), false), "FAIL");
+  EXPECT_EQ(verdict_of(row_with(SOLVER_ROBUST, 10, 0.1), true), "cracks");
+  EXPECT_EQ(verdict_of(row_with(SOLVER_ROBUST, 11, 0.1), true), "FAIL");
+}
+
+TEST(StressVerdict, ARowThatDecidesNoRayIsNoPass) {
+  EXPECT_EQ(verdict_of(row_with(SOLVER_ROBUST, 100, 1.0), false), "undecided");
+  EXPECT_EQ(verdict_of(row_with(SOLVER_ROBUST, 100, 1.0), true), "undecided");
+  EXPECT_EQ(verdict_of(row_with(SOLVER_ROBUST, 99, 1.0), false), "pass");
+  EXPECT_EQ(verdict_of(row_with(SOLVER_BISECT, 100, 0.1), false), "undecided");
+  EXPECT_EQ(verdict_of(row_with(SOLVER_BISECT, 99, 0.1), false), "ok");
+  StressRow row = row_with(SOLVER_ROBUST, 100, 1.0);
+  row.outcome.rays = 101;
+  row.outcome.nans = 1;
+  EXPECT_EQ(verdict_of(row, false), "FAIL");
+  row.solver = SOLVER_BISECT;
+  EXPECT_EQ(verdict_of(row, false), "fails");
+  // A row without rays is no pass either.
+  row.outcome = {};
+  EXPECT_EQ(verdict_of(row, false), "undecided");
+  row.solver = SOLVER_ROBUST;
+  EXPECT_EQ(verdict_of(row, false), "undecided");
+}
+
+TEST(StressVerdict, UndecidedRowsAreCountedApart) {
+  std::vector<StressRow> rows(7);
+  rows[0].verdict = "pass";
+  rows[1].verdict = "undecided";
+  rows[2].verdict = "FAIL";
+  rows[3].verdict = "cracks";
+  // The following rows are not binding.
+  rows[4].verdict = "FAIL";
+  rows[4].shell = SHELL_HEIGHT;
+  rows[5].verdict = "fails";
+  rows[5].solver = SOLVER_BISECT;
+  rows[6].verdict = "undecided";
+  rows[6].solver = SOLVER_BISECT;
+  const BindingRows binding = count_binding(rows);
+  EXPECT_EQ(binding.all, 4U);
+  EXPECT_EQ(binding.passed, 1U);
+  EXPECT_EQ(binding.undecided, 1U);
+  EXPECT_EQ(binding.failed(), 2U);
+}
+
+// Rays along the edge of a flat triangle, none of which the oracle decides.
+TEST(StressVerdict, ACaseMustSayThatItIsUndecidable) {
+  RayCase ray_case;
+  ray_case.name = "in-the-plane";
+  ray_case.mesh = [] {
+    return stress::plain_patch({dvec3(0, 0, 1), dvec3(0, 0, 1), dvec3(0, 0, 1)});
+  };
+  ray_case.rays = [](const BakedScene& scene, std::mt19937_64& /*random*/) {
+    return std::vector<CastRay>(
+        3, stress::ray_exactly_through(scene, dvec3(scene.triangles[0].Position[0]), {1, 0, 0}));
+  };
+  const StressBackend backend = cpu_stress_backend();
+  StressRow row = run_robust_row(ray_case, SURFACE_FLAT, backend);
+  EXPECT_EQ(row.outcome.undecidable, 3U);
+  EXPECT_EQ(row.verdict, "FAIL");
+  ray_case.most_undecidable = 1.0;
+  row = run_robust_row(ray_case, SURFACE_FLAT, backend);
+  EXPECT_EQ(row.most_undecidable, 1.0);
+  EXPECT_EQ(row.verdict, "undecided");
 }
 
 TEST(HardJudge, AnImageOrRowOfNoRaysHasNoErrors) {
