@@ -1,4 +1,4 @@
-// Whether a frame shows what the oracle sees, at a grid of its pixels.
+// A quick check that a frame shows what the oracle sees, at a grid of its pixels.
 #pragma once
 
 #include <cstddef>
@@ -13,15 +13,17 @@ namespace trisect::bench {
 
 class SampleCheck {
  public:
-  // Asks the oracle about every `step`-th pixel of every `step`-th row. progress: as parallel_rows
-  // has it, of the frame's rows; if it says stop Interrupted is thrown.
+  // Asks the oracle about every `step`-th pixel of every `step`-th row, on all cores. progress: as
+  // for parallel_rows, of the grid's rows; if it returns false, Interrupted is thrown.
   SampleCheck(const BakedScene& scene, const TraceParams& params, uint32_t step,
               const Progress& progress);
 
-  // Pixels that it knows: the decidable ones of the grid.
+  // How many pixels are checked: those of the grid that the oracle decides.
   [[nodiscard]] std::size_t pixels() const { return pixels_.size(); }
 
-  // Of these, those that are hit by one only, or have a colour more than two steps of 8 bits off.
+  // How many of these are wrong: hit by only one of frame and oracle, off by more than two steps of
+  // 8 bits (2/255) in a component of the colour, or NaN. frame: rendered with the constructor's
+  // params; it needs no AOVs. Thread-safe.
   [[nodiscard]] std::size_t count_wrong(const Frame& frame) const;
 
  private:

@@ -44,7 +44,7 @@ FrameComparison::Depth compare_depth(const Frame& a, const Frame& b) {
   return depth;
 }
 
-// A part of a whole; 0 of nothing.
+// A share of nothing is 0.
 double share(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
@@ -55,7 +55,7 @@ void expect_same_size(const Frame& a, const Frame& b) {
                                a.height, b.width, b.height));
 }
 
-// Over all components, in steps of 8 bits.
+// As FrameComparison has it.
 struct ColorDifference {
   double rmse = 0.0;
   double largest = 0.0;
@@ -69,7 +69,7 @@ ColorDifference color_difference(const Frame& a, const Frame& b) {
       const double steps =
           255.0 * (static_cast<double>(a.colors[i][k]) - static_cast<double>(b.colors[i][k]));
       squares += steps * steps;
-      // Written so that a NaN stays.
+      // Written this way round, a NaN becomes the largest and stays it.
       if (!(std::abs(steps) <= difference.largest)) difference.largest = std::abs(steps);
     }
   }
@@ -113,7 +113,7 @@ FrameComparison compare(const Frame& a, const Frame& b) {
 
 std::vector<std::string> excesses(const FrameComparison& comparison, const Tolerance& tolerance) {
   std::vector<std::string> found;
-  // Written so that a NaN exceeds.
+  // Written this way round, a NaN exceeds every limit.
   const auto limit = [&](const char* what, double value, double most) {
     if (!(value <= most)) found.push_back(fmt::format("{} {:.6g} > {:.6g}", what, value, most));
   };

@@ -1,4 +1,4 @@
-// How far two frames of the same scene are apart.
+// Compares two frames of the same scene, pixel by pixel. All functions are thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -12,37 +12,40 @@
 
 namespace trisect {
 
-// Of frames without AOVs, hits are told by alpha, and `depth` is empty.
+// If either frame has no AOVs, its hits are told by its alpha, and `depth` is empty.
 struct FrameComparison {
-  struct Depth {  // of pixels that both hit on the same triangle, but for the first
-    std::size_t patch_mismatches = 0;  // hit by both, on different triangles
-    std::size_t pixels = 0;
-    std::size_t bit_equal = 0;  // Z of the same bits
-    Quantiles ulp;              // |difference| of Z in units in the last place
+  struct Depth {
+    std::size_t patch_mismatches = 0;  // pixels that the frames hit on different triangles
+    std::size_t pixels = 0;            // pixels that both hit on the same triangle; of these:
+    std::size_t bit_equal = 0;  // whose Z, the distance from the eye, is the same bit for bit
+    Quantiles ulp;              // |difference of Z| in units in the last place of the first frame's
     Quantiles normal_degrees;   // angle between the geometric normals
   };
   std::size_t pixels = 0;
-  std::size_t hits = 0;            // of either
+  std::size_t hits = 0;            // hit by either frame
   std::size_t hit_mismatches = 0;  // hit by one only
   std::optional<Depth> depth;
-  // Of all components of all colours, sRGB-encoded, in steps of 8 bits (1/255).
+  // Over the three components of all colours, sRGB-encoded, in steps of 8 bits (1/255). NaN if a
+  // colour is.
   double color_rmse = 0.0;
-  double color_max = 0.0;
-  double psnr = 0.0;  // decibels; infinite if the colours are the same
+  double color_max = 0.0;  // largest difference of a component
+  double psnr = 0.0;  // peak signal-to-noise ratio, decibels; infinite if the colours are equal
 };
 
-// Throws InputError if the sizes differ.
+// Throws InputError if the frames are not of the same size.
 FrameComparison compare(const Frame& a, const Frame& b);
 
-// What exceeds the tolerance, a phrase each.
+// One phrase for each figure that exceeds the tolerance; empty if none does.
 std::vector<std::string> excesses(const FrameComparison& comparison, const Tolerance& tolerance);
 
-// The figures, for a person.
+// All figures as lines of text, for a person to read.
 std::string to_text(const FrameComparison& comparison);
 
-// Four pictures in one: a, b, the difference of their colours, amplified so that the largest is
-// white, and a mask: red where only one hits, yellow where they hit different triangles, blue where
-// Z differs, grey where both hit the same.
+// Four pictures in one, twice as wide and high as the frames: a and b above; below them the
+// difference of their colours, amplified so that the largest is white, and a mask of the hits. The
+// mask is red where only one frame hits, yellow where they hit different triangles, blue where Z
+// differs, grey where they hit alike, black where neither hits. Throws InputError if the frames are
+// not of the same size.
 Frame comparison_picture(const Frame& a, const Frame& b);
 
 }  // namespace trisect

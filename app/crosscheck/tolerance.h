@@ -1,16 +1,19 @@
-// How far two frames of the same scene may be apart.
+// How much two frames of the same scene may differ.
 #pragma once
 
 namespace trisect {
 
-// A NaN is always too much. Left as it is, anything goes.
+// The largest difference that is allowed, for each figure of a FrameComparison. A figure that is
+// NaN exceeds every limit. The default allows any difference that is not NaN.
 struct Tolerance {
   static constexpr double kAny = 1e300;
-  double hit_mismatches = kAny;    // parts of the pixels
-  double patch_mismatches = kAny;  // parts of the pixels
-  double z_differs = kAny;         // parts of the pixels that both hit
-  double color_rmse = kAny;        // steps of 8 bits
-  double color_max = kAny;
+  double hit_mismatches = kAny;    // as a fraction of the pixels
+  double patch_mismatches = kAny;  // as a fraction of the pixels
+  // Pixels whose Z is not equal bit for bit, as a fraction of those that both frames hit on the
+  // same triangle.
+  double z_differs = kAny;
+  double color_rmse = kAny;  // in steps of 8 bits (1/255)
+  double color_max = kAny;   // in steps of 8 bits
 };
 
 }  // namespace trisect

@@ -192,7 +192,7 @@ TEST(Document, IsMarkdownAndHtml) {
   EXPECT_EQ(base64_of("foobar"), "Zm9vYmFy");
 }
 
-// What is measured of frames with an error that is known.
+// FrameErrors of frames whose error is known.
 class FrameErrorsTest : public ::testing::Test {
  protected:
   FrameErrorsTest() {
@@ -215,7 +215,7 @@ class FrameErrorsTest : public ::testing::Test {
 TEST_F(FrameErrorsTest, OfTheTruthAreRoundings) {
   const FrameErrors e = errors(shown_);
   EXPECT_EQ(e.wrong + e.missed + e.nans, 0U);
-  // Half a unit in the last place of a distance of about 3.
+  // The frame's depths, about 3, are rounded to half a unit in the last place.
   EXPECT_LT(e.rms, 1e-7);
   EXPECT_EQ(e.outline_max, 0.0);
   EXPECT_EQ(e.color_rmse, 0.0);
@@ -231,7 +231,7 @@ TEST_F(FrameErrorsTest, CountAMissAsTheRadius) {
   std::size_t seen = 0;
   for (const OracleAnswer& answer : truth_.pixels) seen += answer.hit && answer.decidable ? 1 : 0;
   EXPECT_NEAR(e.rms, 1.0 / std::sqrt(static_cast<double>(seen)), 1e-6);
-  // The pixels around a hole are an outline, far from the true one.
+  // The pixels around the hole count as outline, and they are far from the true outline.
   EXPECT_GT(e.outline_max, 10.0);
 }
 
@@ -253,7 +253,7 @@ TEST_F(FrameErrorsTest, MeasureDepthAcrossTheSurface) {
     if (aov.triangle != NO_TRIANGLE) aov.normal_z.w += static_cast<float>(0.01 * scene_.radius);
   }
   const FrameErrors e = errors(frame);
-  // Less the more a pixel's ray grazes the surface.
+  // The distance off the surface is the smaller the more a ray grazes it.
   EXPECT_NEAR(e.off.max, 0.01, 1e-4);
   EXPECT_GT(e.rms, 0.005);
   EXPECT_LT(e.rms, 0.01);
@@ -266,15 +266,15 @@ TEST(Stability, OfTheRobustSolverIsThatOfItsRoundings) {
   for (const StabilityAxis& axis : axes) {
     ASSERT_EQ(axis.curves.size(), 3U);
     for (const StabilityPoint& point : axis.curves[0].points) {
-      // A patch no wider than some roundings of its length: some rays miss it.
+      // The patch is only some roundings wide, and some rays miss it.
       if (axis.name == "aspect" && point.value > 2e5) continue;
       const std::string what = axis.name + " " + std::to_string(point.value);
       EXPECT_EQ(point.wrong + point.missed + point.nans, 0U) << what;
-      // What `trisect accuracy` promises of 99 of 100 pixels.
-      // Rays that graze within 0.01 degrees are not decided.
+      // The bound that `trisect accuracy` has for 99 of 100 pixels. The oracle decides no ray that
+      // grazes the surface at less than 0.01 degrees.
       EXPECT_TRUE(point.decided == 0 || point.error < 2.5e-7) << what;
     }
-    // The scale, of which the bisection has lengths of its own.
+    // The bisection compares with absolute lengths, so it loses small models.
     for (const StabilityPoint& point : axis.curves[1].points) {
       if (axis.name == "scale" && point.value < 2e-3) thesis_fails |= point.missed > 5;
     }

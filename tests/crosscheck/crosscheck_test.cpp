@@ -1,4 +1,4 @@
-// The same frame from Vulkan and from OpenGL: every model, surface, shell and solver at 320x240.
+// Vulkan and OpenGL render the same frames: every model, surface, shell and solver at 320x240.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,7 +49,7 @@ TEST_P(CrosscheckMatrix, VulkanAndOpenGlAgree) {
   const Combination& combination = GetParam();
   for (const std::string& asset : test::asset_names()) {
 #ifndef TRISECT_SLOW
-    // A third of the time of all models: left to the slow tests.
+    // It takes a third of the time of all models and is left to the slow tests.
     if (asset == "teapot-1000") continue;
 #endif
     const Mesh mesh = test::load_asset(asset);
@@ -60,9 +60,9 @@ TEST_P(CrosscheckMatrix, VulkanAndOpenGlAgree) {
     for (const GlPath path : {GlPath::compute, GlPath::fragment}) {
       const FrameComparison found = compare(vulkan, trace_by_opengl(scene, settings, path));
       Tolerance tolerance = tolerance_between(Backend::vulkan, Backend::opengl, path);
-      // The bisection drops a pixel or keeps it by the last bit of its ray: at Rank 10 up to 6e-4
-      // of them. One that is dropped is off by up to 255 steps, so 1e-3 of them make an RMSE of up
-      // to 8.
+      // Whether the bisection finds a hit can depend on the last bit of the ray, which
+      // interpolation changes: at Rank 10 for up to 6e-4 of the pixels. A lost pixel's colour is
+      // off by up to 255 steps, so 1e-3 of them make an RMSE of up to 8.
       if (path == GlPath::fragment && combination.solver == SOLVER_BISECT) {
         tolerance = {1e-3, 5e-4, Tolerance::kAny, 8.1, Tolerance::kAny};
       }
@@ -92,8 +92,8 @@ INSTANTIATE_TEST_SUITE_P(
       return combination.param.name;
     });
 
-// Three triangles, each at a place of its own: what is mirrored, turned or shifted by half a pixel
-// is seen. The camera stands in front, at z = 3, and looks along -z.
+// Three triangles at places without symmetry, so that a mirrored, turned or shifted image is
+// noticed. The camera is at z = 3 and looks along -z.
 Mesh corners() {
   Mesh mesh;
   const auto add = [&](const glm::dvec3& at, double size) {
@@ -103,9 +103,9 @@ Mesh corners() {
     for (int i = 0; i < 3; ++i) mesh.normals.emplace_back(0.0, 0.0, 1.0);
     mesh.triangles.push_back({{first, first + 1, first + 2}, {first, first + 1, first + 2}});
   };
-  add({0.2, 0.2, 0.0}, 0.7);    // right, above
-  add({-0.8, 0.3, 0.3}, 0.4);   // left, above, nearer
-  add({-0.7, -0.9, 0.0}, 0.3);  // left, below
+  add({0.2, 0.2, 0.0}, 0.7);    // upper right
+  add({-0.8, 0.3, 0.3}, 0.4);   // upper left, nearer
+  add({-0.7, -0.9, 0.0}, 0.3);  // lower left
   return mesh;
 }
 
@@ -124,17 +124,17 @@ TEST_F(Crosscheck, ConventionsAreTheSame) {
     EXPECT_EQ(same.hit_mismatches, 0U) << width << "x" << height;
     EXPECT_EQ(same.depth->patch_mismatches, 0U);
     EXPECT_EQ(same.depth->bit_equal, same.depth->pixels);
-    EXPECT_LT(same.color_max, 1e-3);  // the sky's gradient rounds another way
+    EXPECT_LT(same.color_max, 1e-3);  // the gradient of the sky is rounded differently
     const Frame fragment = trace_by_opengl(scene, settings, GlPath::fragment);
     const FrameComparison found = compare(vulkan, fragment);
     EXPECT_EQ(found.hit_mismatches, 0U) << width << "x" << height;
     EXPECT_EQ(found.depth->patch_mismatches, 0U);
-    // Interpolated rays are off by some units in the last place of their direction.
+    // The interpolation of rays adds some units in the last place of their direction.
     EXPECT_LT(found.depth->ulp.max, 16.0);
     EXPECT_LT(found.color_max, 0.05);
     if (width != 64) continue;
-    // x to the right, y up, rows from above: seen where analysis puts them. tan(22.5 deg) 3 is half
-    // the image's height at z = 0.
+    // The triangles are seen where they must be if x points right, y up, and rows count from the
+    // top. 3 tan(22.5 degrees) is half of the image's height at z = 0.
     const auto triangle_at = [&](const Frame& frame, double x, double y) {
       const double pixels = 24.0 / (3.0 * std::tan(glm::radians(22.5)));
       const auto column = static_cast<uint32_t>(32.0 + x * pixels);
@@ -146,7 +146,7 @@ TEST_F(Crosscheck, ConventionsAreTheSame) {
       EXPECT_EQ(triangle_at(*frame, -0.75, 0.5), 1U);
       EXPECT_EQ(triangle_at(*frame, -0.62, -0.82), 2U);
       EXPECT_EQ(triangle_at(*frame, 0.4, -0.4), NO_TRIANGLE);
-      // Distances along the unit ray, not depths along the axis.
+      // Z is the distance along the unit ray, not the depth along the camera's axis.
       const PixelAovs& aov = frame->aovs[24 * width + 40];
       if (aov.triangle == NO_TRIANGLE) continue;
       EXPECT_GT(aov.normal_z.w, 3.0F);
@@ -161,13 +161,13 @@ TEST_F(Crosscheck, ImagesComeInBands) {
   settings.solver = SOLVER_ROBUST;
   for (const GlPath path : {GlPath::compute, GlPath::fragment}) {
     const Frame whole = trace_by_opengl(scene, settings, path);
-    // Buffers of 16 rows: four bands.
+    // The buffer holds 16 rows, so the image is rendered in four bands.
     const Frame banded =
         trace_by_opengl(scene, settings, path, std::size_t{100} * 20 * sizeof(PixelAovs));
     const FrameComparison found = compare(whole, banded);
     EXPECT_EQ(found.hit_mismatches, 0U);
     EXPECT_EQ(found.depth->patch_mismatches, 0U);
-    // A band has a viewport of its own, through which rays are interpolated differently.
+    // Each band has its own viewport, and rays are interpolated differently in it.
     EXPECT_LE(found.depth->ulp.max, path == GlPath::compute ? 0.0 : 16.0);
     EXPECT_LT(found.color_max, 0.05);
     EXPECT_GT(found.depth->pixels, 1000U);
