@@ -59,32 +59,31 @@ TEST(Classify, Misses) {
 
 TEST(Classify, NeighboursTieWithinAMillionthOfTheRadius) {
   for (const double slant : {1.0, 0.3, 2e-3}) {
-    EXPECT_EQ(verdict_at(8, 0.99 * kTie / slant, slant), RayVerdict::hit) << slant;
-    EXPECT_EQ(verdict_at(8, -0.99 * kTie / slant, slant), RayVerdict::hit) << slant;
-    EXPECT_EQ(verdict_at(8, 1.01 * kTie / slant, slant), RayVerdict::wrong_patch) << slant;
-    EXPECT_EQ(verdict_at(8, -1.01 * kTie / slant, slant), RayVerdict::wrong_patch) << slant;
+    EXPECT_EQ(verdict_at(8, 0.99 * 1e-6 / slant, slant), RayVerdict::hit) << slant;
+    EXPECT_EQ(verdict_at(8, -0.99 * 1e-6 / slant, slant), RayVerdict::hit) << slant;
+    EXPECT_EQ(verdict_at(8, 1.01 * 1e-6 / slant, slant), RayVerdict::wrong_patch) << slant;
+    EXPECT_EQ(verdict_at(8, -1.01 * 1e-6 / slant, slant), RayVerdict::wrong_patch) << slant;
     // The same triangle needs no tie.
-    EXPECT_EQ(verdict_at(7, 1.01 * kTie / slant, slant), RayVerdict::hit) << slant;
+    EXPECT_EQ(verdict_at(7, 1.01 * 1e-6 / slant, slant), RayVerdict::hit) << slant;
   }
 }
 
 TEST(Classify, AHundredthOfTheRadiusIsAnotherRoot) {
   for (const double slant : {1.0, 0.3}) {
-    EXPECT_EQ(verdict_at(7, 0.99 * kOtherRoot / slant, slant), RayVerdict::hit) << slant;
-    EXPECT_EQ(verdict_at(7, 1.01 * kOtherRoot / slant, slant), RayVerdict::wrong_root) << slant;
-    EXPECT_EQ(verdict_at(7, -1.01 * kOtherRoot / slant, slant), RayVerdict::wrong_root) << slant;
-    EXPECT_EQ(verdict_at(8, 1.01 * kOtherRoot / slant, slant), RayVerdict::wrong_patch) << slant;
+    EXPECT_EQ(verdict_at(7, 0.99 * 1e-2 / slant, slant), RayVerdict::hit) << slant;
+    EXPECT_EQ(verdict_at(7, 1.01 * 1e-2 / slant, slant), RayVerdict::wrong_root) << slant;
+    EXPECT_EQ(verdict_at(7, -1.01 * 1e-2 / slant, slant), RayVerdict::wrong_root) << slant;
+    EXPECT_EQ(verdict_at(8, 1.01 * 1e-2 / slant, slant), RayVerdict::wrong_patch) << slant;
   }
 }
 
 // Below a slant of 1e-3 the rules take it for 1e-3; the distance that is returned does not.
 TEST(Classify, AGrazingRayIsNoExcuse) {
   for (const double slant : {1e-3, 1e-5, 0.0}) {
-    EXPECT_EQ(verdict_at(8, 0.99 * kTie / kLeastSlant, slant), RayVerdict::hit) << slant;
-    EXPECT_EQ(verdict_at(8, 1.01 * kTie / kLeastSlant, slant), RayVerdict::wrong_patch) << slant;
-    EXPECT_EQ(verdict_at(7, 0.99 * kOtherRoot / kLeastSlant, slant), RayVerdict::hit) << slant;
-    EXPECT_EQ(verdict_at(7, 1.01 * kOtherRoot / kLeastSlant, slant), RayVerdict::wrong_root)
-        << slant;
+    EXPECT_EQ(verdict_at(8, 0.99 * 1e-6 / 1e-3, slant), RayVerdict::hit) << slant;
+    EXPECT_EQ(verdict_at(8, 1.01 * 1e-6 / 1e-3, slant), RayVerdict::wrong_patch) << slant;
+    EXPECT_EQ(verdict_at(7, 0.99 * 1e-2 / 1e-3, slant), RayVerdict::hit) << slant;
+    EXPECT_EQ(verdict_at(7, 1.01 * 1e-2 / 1e-3, slant), RayVerdict::wrong_root) << slant;
   }
   EXPECT_EQ(classify_found({8, 5.5}, oracle_hit(0.0)).off_surface, 0.0);
   EXPECT_EQ(classify_found({7, 5.5}, oracle_hit(0.25)).off_surface, 0.5 * 0.25 / kRadius);
