@@ -6,7 +6,8 @@ execute_process(COMMAND ${GLSLANG} -E -DTRISECT_OPENGL -I${folder} ${SOURCE}
 if(NOT result EQUAL 0)
   message(FATAL_ERROR "${SOURCE} was not preprocessed")
 endif()
-# The version is the caller's to give, with the constants' values. Of the rest no directive is left.
+# app/opengl/shader_head.cpp gives the version, with the values of the constants. What other directives the preprocessor
+# leaves, such as #extension for Vulkan, are dropped.
 string(REGEX REPLACE "#[^\n]*\n" "" text "${text}")
 string(REGEX REPLACE "\n\n+" "\n" text "${text}")
-file(WRITE ${HEADER} "const char* const ${NAME} = R\"glsl(${text})glsl\";\n")
+file(WRITE ${HEADER} "constexpr const char* ${NAME} = R\"glsl(${text})glsl\";\n")

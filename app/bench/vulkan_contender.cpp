@@ -17,7 +17,7 @@ class ImageOnly : public Contender {
  public:
   ImageOnly(const gpu::Device& device, const TraceParams& params)
       : params_(params),
-        kernel_(device, kClearImageSpirv, clear_image_interface(), {}, "clear_image"),
+        kernel_(make_kernel(device, "clear_image", {})),
         commands_(device),
         params_buffer_(device, sizeof(TraceParams), gpu::Memory::device, "trace parameters"),
         colors_(device, std::size_t{params.width} * params.height * sizeof(vec4),

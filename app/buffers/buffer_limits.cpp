@@ -10,11 +10,11 @@ namespace {
 
 template <typename T>
 std::size_t bytes_of(const std::string& device, std::size_t limit, const std::vector<T>& items,
-                     const char* take) {
+                     const char* items_take) {
   const std::size_t bytes = std::max<std::size_t>(items.size(), 1) * sizeof(T);
   if (bytes > limit) {
     throw DeviceError(fmt::format("device {} has storage buffers of at most {} bytes; {} {}.",
-                                  device, limit, take, bytes));
+                                  device, limit, items_take, bytes));
   }
   return bytes;
 }

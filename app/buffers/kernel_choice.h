@@ -1,19 +1,21 @@
-// What a kernel does beside what the scene says; what it need not do is not compiled in.
+// The choices, beside those of the scene, that a tracer's kernels are specialised for. What a
+// choice leaves out is not compiled in.
 #pragma once
 
 #include "app/surface/shared.h"
 
 namespace trisect {
 
-// Which patches a ray is tried against.
+// The acceleration: how the candidates for a ray are found. All but `list` need the robust solver.
 enum class Accel {
-  list,      // all of them
-  tiles,     // those that its tile of the image touches: primary rays, robust solver
-  bvh,       // those in whose boxes it comes: robust solver, needs the scene's bvh
-  rayquery,  // the same by the device's own structure over the boxes, if it has ray queries
+  list,      // every subpatch (bisection: every triangle) whose bounding ball the ray meets
+  tiles,     // the subpatches whose projections overlap the pixel's tile: primary rays only
+  bvh,       // by the scene's BVH over the subpatches' bounding boxes
+  rayquery,  // by the device's own acceleration structure over these boxes (VK_KHR_ray_query); the
+             // scene's BVH too, for rays that take too long
 };
 
-// As the command line and the JSON name them.
+// Names as on the command line and in JSON.
 constexpr const char* solver_name(uint solver) {
   return solver == SOLVER_BISECT ? "bisect" : "robust";
 }
@@ -31,19 +33,20 @@ constexpr const char* accel_name(Accel accel) {
 }
 
 struct KernelChoice {
-  uint solver = SOLVER_ROBUST;  // needs the scene's cages
-  bool aovs = false;            // frames have more than colour
-  bool counts = false;          // evaluations and candidates, in the AOVs
+  uint solver = SOLVER_ROBUST;  // SOLVER_ROBUST needs the scene's subpatches
+  bool aovs = false;            // frames have PixelAovs beside the colour
+  bool counts = false;          // evaluations and candidates are counted, in the AOVs
   Accel accel = Accel::list;
-  // Robust solver; of accel tiles they go by the scene's bvh.
+  // Shadow rays are traced too; needs the robust solver. With Accel::tiles they traverse the
+  // scene's BVH, because only rays through the eye have a tile.
   bool shadows = false;
-  // For measurements, of accel tiles: where a part can be is told by its ball, as the thesis has
-  // it, and not by its control points.
+  // For measurements, with Accel::tiles: subpatches are culled by their bounding balls, as in the
+  // thesis, instead of by their control points.
   bool balls = false;
 
   bool operator==(const KernelChoice&) const = default;
 
-  // Shadows start from them.
+  // Shadow rays start from what the AOVs say was hit.
   [[nodiscard]] bool writes_aovs() const { return aovs || shadows; }
 };
 

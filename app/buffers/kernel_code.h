@@ -1,4 +1,4 @@
-// SPIR-V of the kernels by their names.
+// SPIR-V that was compiled while the program runs.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace trisect {
 
-// Name of a kernel, as in "trace_tiles", and its SPIR-V.
+// SPIR-V words by the kernel's name in shaders/CMakeLists.txt, such as "trace_tiles".
 using KernelCode = std::map<std::string, std::vector<uint32_t>, std::less<>>;
 
 }  // namespace trisect

@@ -1,8 +1,13 @@
-// The compiled kernels, and the interfaces that shaders/shared.h gives them.
+// The shaders that shaders/CMakeLists.txt lists, by name: their SPIR-V or GLSL, and what they bind.
+//
+// All functions are safe to call from any thread: they read constant tables. A name that is not in
+// the list is a mistake of the caller: std::logic_error.
 #pragma once
 
 #include <cstdint>
 #include <span>
+#include <string_view>
+#include <vector>
 
 #include "app/buffers/kernel_code.h"
 #include "app/surface/shared.h"
@@ -10,45 +15,44 @@
 
 namespace trisect {
 
-extern const std::span<const uint32_t> kTraceListSpirv;
-extern const std::span<const uint32_t> kProjectSubpatchesSpirv;
-extern const std::span<const uint32_t> kBinSubpatchesSpirv;
-extern const std::span<const uint32_t> kFillSkySpirv;
-extern const std::span<const uint32_t> kTraceTilesSpirv;
-extern const std::span<const uint32_t> kTraceUndecidedSpirv;
-extern const std::span<const uint32_t> kTracePacketsSpirv;
-extern const std::span<const uint32_t> kTraceBvhSpirv;
-// Those of --accel bvh, for scenes whose buffers are too large to be bound.
-extern const std::span<const uint32_t> kTracePacketsAtSpirv;
-extern const std::span<const uint32_t> kTraceBvhAtSpirv;
-extern const std::span<const uint32_t> kTraceQuerySpirv;
-extern const std::span<const uint32_t> kClearImageSpirv;
-// Of the window that shows a frame.
-extern const std::span<const uint32_t> kScreenVertSpirv;
-extern const std::span<const uint32_t> kScreenFragSpirv;
-extern const std::span<const uint32_t> kCastRaysSpirv;
-extern const std::span<const uint32_t> kCastByBvhSpirv;
+// What a shader finds in descriptor set 0, and its push constants. Kernels of the same interface
+// can share a descriptor set.
+enum class Interface {
+  frame,   // kernels that make a frame: TilePush
+  cast,    // kernels that cast rays from a buffer: CastPush
+  clear,   // the kernel that clears an image: no push constants
+  screen,  // the shaders that show a frame in a window: ScreenPush
+};
 
-// The kernel of that name in `code`; built_in if there is none, or if code is null.
-std::span<const uint32_t> newest(const KernelCode* code, const char* name,
-                                 std::span<const uint32_t> built_in);
+// A line trisect_kernel() of shaders/CMakeLists.txt.
+struct KernelSource {
+  const char* name;
+  const char* file;      // in the folder shaders/
+  const char* preamble;  // text ahead of the file's, such as "#define TRISECT_ADDRESSES\n"; or ""
+  bool ray_queries;      // uses GL_EXT_ray_query, which needs SPIR-V 1.4
+  Interface interface;
+  std::span<const uint32_t> spirv;  // compiled by the build
+};
 
-// GLSL for OpenGL, without a version; frame_buffers.glsl says what else goes ahead of it.
-extern const char* const kTraceListComp;
-extern const char* const kTraceListFrag;
-extern const char* const kFullScreenVert;
-extern const char* const kTessellatedVert;
-extern const char* const kTessellatedTesc;
-extern const char* const kTessellatedTese;
-extern const char* const kTessellatedFrag;
-extern const char* const kSkyFrag;
+// All of them, in the order of the list.
+std::span<const KernelSource> kernel_sources();
 
-// Of the kernels that make a frame: they share a descriptor set.
+// The SPIR-V words of a kernel: those in `code` if it has the kernel, else those of the build.
+// code: compiled anew while the program runs, or null; it must outlive the words.
+std::span<const uint32_t> spirv_of(std::string_view name, const KernelCode* code = nullptr);
+
+// The text of a shader for OpenGL by its file name, such as "trace_list.comp", without #version;
+// app/opengl/shader_head.h says what goes ahead of it.
+const char* glsl_of(std::string_view file);
+
+gpu::KernelInterface interface_of(std::string_view name);
 gpu::KernelInterface frame_interface();
-gpu::KernelInterface cast_rays_interface();
-// Of the fragment shader that shows a frame in a window.
 gpu::KernelInterface screen_interface();
-// Of the kernel that writes an image and nothing else.
-gpu::KernelInterface clear_image_interface();
+
+// The compute pipeline of a kernel with these specialisation constants. code: as spirv_of takes it.
+// Throws DeviceError if the device cannot make it.
+gpu::Kernel make_kernel(const gpu::Device& device, const char* name,
+                        const std::vector<gpu::Specialization>& constants,
+                        const KernelCode* code = nullptr);
 
 }  // namespace trisect

@@ -10,12 +10,6 @@
 namespace trisect {
 namespace {
 
-bool fits(const BakedScene& scene, std::size_t limit) {
-  return scene.triangles.size() * sizeof(Triangle) <= limit &&
-         scene.subpatches.size() * sizeof(SubpatchBounds) <= limit &&
-         scene.bvh.size() * sizeof(BvhEntry) <= limit;
-}
-
 template <typename T>
 void upload_items(gpu::Staging& staging, gpu::Commands& commands, const std::vector<T>& items,
                   gpu::Buffer& buffer) {
@@ -29,9 +23,9 @@ uint high(VkDeviceAddress address) {
   return static_cast<uint>(address >> 32U);
 }
 
-// By how much boxes are enlarged for rays whose points round, and for what the device's own
-// arithmetic may lose, over the scene's reach: rays of a camera that hit the scene come from
-// points at most 25 times as far away, whatever the field of view.
+// How much boxes are enlarged for the rounding of a ray's points and for that of the device's own
+// intersection test, as a fraction of the scene's radius: the anchors of camera rays that hit the
+// scene are at most 25 radii away, whatever the field of view.
 const float kBoxSlack = 16.0F * BVH_SLACK;
 
 VkAabbPositionsKHR inflated(const SubpatchBox& box, float slack) {
@@ -41,24 +35,35 @@ VkAabbPositionsKHR inflated(const SubpatchBox& box, float slack) {
 
 }  // namespace
 
+SceneBuffers::Placement SceneBuffers::placement_of(const gpu::Device& device,
+                                                   const BakedScene& scene, std::size_t limit,
+                                                   const Needs& needs) {
+  const bool too_large = scene.triangles.size() * sizeof(Triangle) > limit ||
+                         scene.subpatches.size() * sizeof(SubpatchBounds) > limit ||
+                         (needs.bvh && scene.bvh.size() * sizeof(BvhEntry) > limit);
+  const bool by_address =
+      needs.by_address == ByAddress::always ||
+      (needs.by_address == ByAddress::if_large && device.has_addresses() && too_large);
+  return by_address ? Placement{kNoLimit, gpu::Memory::addressed}
+                    : Placement{limit, gpu::Memory::device};
+}
+
 SceneBuffers::SceneBuffers(const gpu::Device& device, const BakedScene& scene, std::size_t limit,
-                           ByAddress by_address)
-    : SceneBuffers(
-          device, scene,
-          by_address == ByAddress::always || (by_address == ByAddress::if_large &&
-                                              device.has_addresses() && !fits(scene, limit))
-              ? Placement{kNoLimit, gpu::Memory::addressed}
-              : Placement{limit, gpu::Memory::device}) {}
+                           const Needs& needs)
+    : SceneBuffers(device, scene, placement_of(device, scene, limit, needs), needs.bvh) {}
 
 SceneBuffers::SceneBuffers(const gpu::Device& device, const BakedScene& scene,
-                           const Placement& placement)
+                           const Placement& placement, bool with_bvh)
     : by_address_(placement.memory == gpu::Memory::addressed),
+      with_bvh_(with_bvh),
       triangles_(device, triangle_bytes(device.report().name, placement.limit, scene),
                  placement.memory, "triangles"),
       subpatches_(device, subpatch_bytes(device.report().name, placement.limit, scene),
-                  placement.memory, "cages"),
-      bvh_(device, bvh_bytes(device.report().name, placement.limit, scene), placement.memory,
-           "tree"),
+                  placement.memory, "subpatch bounds"),
+      // A binding needs a buffer even if no kernel reads it: one entry.
+      bvh_(device,
+           with_bvh ? bvh_bytes(device.report().name, placement.limit, scene) : sizeof(BvhEntry),
+           placement.memory, "tree"),
       addresses_(device, sizeof(Addresses), gpu::Memory::host, "addresses"),
       unused_(device, sizeof(vec4), gpu::Memory::device, "unused") {
   if (!by_address_) return;
@@ -74,36 +79,37 @@ SceneBuffers::SceneBuffers(const gpu::Device& device, const BakedScene& scene,
 void SceneBuffers::upload(gpu::Staging& staging, gpu::Commands& commands, const BakedScene& scene) {
   upload_items(staging, commands, scene.triangles, triangles_);
   upload_items(staging, commands, scene.subpatches, subpatches_);
-  upload_items(staging, commands, scene.bvh, bvh_);
+  if (with_bvh_) upload_items(staging, commands, scene.bvh, bvh_);
 }
 
 void SceneBuffers::build_boxes(const gpu::Device& device, gpu::Staging& staging,
                                gpu::Commands& commands, const BakedScene& scene) {
-  const std::vector<SubpatchBox> subpatches = subpatch_boxes(scene);
+  const std::vector<SubpatchBox> exact_boxes = subpatch_boxes(scene);
   float scene_radius = 0.0F;
-  for (std::size_t i = 0; i < subpatches.size(); ++i) {
+  for (std::size_t i = 0; i < exact_boxes.size(); ++i) {
     if (scene.subpatches[i].skip > 0) continue;
     scene_radius =
         std::max(scene_radius,
-                 glm::length(glm::max(glm::abs(subpatches[i].lo), glm::abs(subpatches[i].hi))));
+                 glm::length(glm::max(glm::abs(exact_boxes[i].lo), glm::abs(exact_boxes[i].hi))));
   }
   scene_radius *= 1.0F + kBoxSlack;
   std::vector<VkAabbPositionsKHR> boxes;
-  boxes.reserve(subpatches.size());
-  for (std::size_t i = 0; i < subpatches.size(); ++i) {
-    // A group has no part of its own. Boxes that are not numbers count as none, but Mesa 25.0.7
-    // loses others beside them; kernels pass by a point among the group's parts.
-    const glm::vec3 point = subpatches[i + 1 < subpatches.size() ? i + 1 : i].lo;
+  boxes.reserve(exact_boxes.size());
+  for (std::size_t i = 0; i < exact_boxes.size(); ++i) {
+    // A divided patch has an entry that only groups its subpatches and has no geometry of its own.
+    // Vulkan ignores boxes of NaNs, but Mesa 25.0.7 then loses others too. So the entry gets a box
+    // of size zero at a corner of its first subpatch, and kernels ignore hits of it.
+    const glm::vec3 point = exact_boxes[i + 1 < exact_boxes.size() ? i + 1 : i].lo;
     boxes.push_back(scene.subpatches[i].skip > 0
                         ? inflated({point, point}, 0.0F)
-                        : inflated(subpatches[i], kBoxSlack * scene_radius));
+                        : inflated(exact_boxes[i], kBoxSlack * scene_radius));
   }
   boxes_ = std::make_unique<gpu::AabbAccelerationStructure>(device, staging, commands, boxes);
   Addresses addresses{};
   std::memcpy(&addresses, addresses_.bytes().data(), sizeof(addresses));
   addresses.boxes_low = low(boxes_->address());
   addresses.boxes_high = high(boxes_->address());
-  // Beyond the enlarged boxes.
+  // The kernel clips rays to a ball of this radius: it must hold the enlarged boxes.
   addresses.scene_radius = scene_radius * (1.0F + 2.0F * kBoxSlack);
   std::memcpy(addresses_.bytes().data(), &addresses, sizeof(addresses));
 }

@@ -1,4 +1,6 @@
 // A baked scene in the memory of a Vulkan device.
+//
+// Like all that is made of a gpu::Device, for one thread at a time; the device must outlive it.
 #pragma once
 
 #include <cstddef>
@@ -14,25 +16,34 @@ namespace trisect {
 
 class SceneBuffers {
  public:
-  // Whether kernels reach the buffers by their addresses.
+  // Whether kernels reach the buffers by their device addresses instead of by bindings.
   enum class ByAddress {
     never,
-    if_large,  // if one of them has more than `limit` bytes, the most of a buffer that is bound
-    always,
+    if_large,  // if one of them has more bytes than a binding may have, and the device has
+               // addresses
+    always,    // the device must have addresses
   };
 
-  // Throws DeviceError, naming the device, if it cannot hold the scene.
-  SceneBuffers(const gpu::Device& device, const BakedScene& scene, std::size_t limit,
-               ByAddress by_address);
+  // What the kernels need of the scene. What they do not need takes no memory.
+  struct Needs {
+    ByAddress by_address = ByAddress::never;
+    bool bvh = false;
+  };
 
+  // Allocates the buffers. limit: the most bytes of a buffer that is bound. Throws DeviceError if a
+  // buffer that must be bound is larger, or if there is no memory.
+  SceneBuffers(const gpu::Device& device, const BakedScene& scene, std::size_t limit,
+               const Needs& needs);
+
+  // Copies the scene that the buffers were made for to the device; returns when it is there.
   void upload(gpu::Staging& staging, gpu::Commands& commands, const BakedScene& scene);
 
-  // Also builds the device's own structure over the parts' boxes. Of buffers with addresses, on a
-  // device with ray queries.
+  // Also builds the device's own acceleration structure over the subpatches' bounding boxes. Needs
+  // ByAddress::always and a device with ray queries. Throws DeviceError if there is no memory.
   void build_boxes(const gpu::Device& device, gpu::Staging& staging, gpu::Commands& commands,
                    const BakedScene& scene);
 
-  // Of all of them.
+  // Bytes of device memory of all buffers and of the acceleration structure.
   [[nodiscard]] std::size_t bytes() const {
     return triangles_.size() + subpatches_.size() + bvh_.size() + addresses_.size() +
            (boxes_ ? boxes_->bytes() : 0);
@@ -41,6 +52,7 @@ class SceneBuffers {
   [[nodiscard]] bool by_address() const { return by_address_; }
 
   // What kernels bind as BINDING_TRIANGLES, BINDING_SUBPATCHES, BINDING_BVH and BINDING_ADDRESSES.
+  // Where the kernels go by address, the first three are a placeholder.
   [[nodiscard]] const gpu::Buffer& triangles() const { return by_address_ ? unused_ : triangles_; }
   [[nodiscard]] const gpu::Buffer& subpatches() const {
     return by_address_ ? unused_ : subpatches_;
@@ -49,14 +61,18 @@ class SceneBuffers {
   [[nodiscard]] const gpu::Buffer& addresses() const { return addresses_; }
 
  private:
-  // How kernels reach the buffers, and the most bytes that one of them may have for it.
+  // In which memory the buffers are, and the most bytes that one of them may have there.
   struct Placement {
     std::size_t limit;
     gpu::Memory memory;
   };
-  SceneBuffers(const gpu::Device& device, const BakedScene& scene, const Placement& placement);
+  static Placement placement_of(const gpu::Device& device, const BakedScene& scene,
+                                std::size_t limit, const Needs& needs);
+  SceneBuffers(const gpu::Device& device, const BakedScene& scene, const Placement& placement,
+               bool with_bvh);
 
   bool by_address_;
+  bool with_bvh_;
   gpu::Buffer triangles_;
   gpu::Buffer subpatches_;
   gpu::Buffer bvh_;

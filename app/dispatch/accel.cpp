@@ -8,29 +8,31 @@
 namespace trisect {
 namespace {
 
-// Of parts in the lists of tiles: their records fill a buffer of the 128 MiB that all devices have.
+// Tiles need a ProjectedSubpatch for each subpatch in one storage buffer. Vulkan guarantees
+// bindings of 128 MiB (maxStorageBufferRange).
 constexpr std::size_t kMostSubpatches = (std::size_t{128} << 20U) / sizeof(ProjectedSubpatch);
 
-// Looking at all parts for every frame takes longer than the tree from so many parts a tile on:
-// measured on models of up to 6272 parts, images of 200x150 to 800x600.
+// Tiles project and bin all subpatches for every frame. With more subpatches per tile than this,
+// the BVH is faster: measured on models of up to 6272 subpatches, images of 200x150 to 800x600.
 constexpr std::size_t kSubpatchesOfTile = 4;
 
 }  // namespace
 
 Accel chosen_accel(const AccelRequest& request, Backend backend, std::size_t subpatches) {
-  const bool any = backend == Backend::vulkan && request.solver == SOLVER_ROBUST;
-  const bool tiles = subpatches <= kMostSubpatches;
+  const bool can_accelerate = backend == Backend::vulkan && request.solver == SOLVER_ROBUST;
+  const bool tiles_fit = subpatches <= kMostSubpatches;
   if (!request.accel) {
-    if (!any) return Accel::list;
+    if (!can_accelerate) return Accel::list;
     const std::size_t tiles_of_image =
         std::size_t{tiles_across(request.width)} * tiles_across(request.height);
-    return tiles && subpatches <= kSubpatchesOfTile * tiles_of_image ? Accel::tiles : Accel::bvh;
+    return tiles_fit && subpatches <= kSubpatchesOfTile * tiles_of_image ? Accel::tiles
+                                                                         : Accel::bvh;
   }
-  if (*request.accel != Accel::list && !any) {
+  if (*request.accel != Accel::list && !can_accelerate) {
     throw UsageError(fmt::format("--accel {}: it needs --backend vulkan and --solver robust.",
                                  accel_name(*request.accel)));
   }
-  if (*request.accel == Accel::tiles && !tiles) {
+  if (*request.accel == Accel::tiles && !tiles_fit) {
     throw UsageError(
         fmt::format("--accel tiles: the patches have {} parts, more than the {} that it takes.",
                     subpatches, kMostSubpatches));
@@ -45,6 +47,23 @@ bool needs_bvh(Accel accel, bool shadows) {
 Accel accel_at_hand(const AccelRequest& request, const BakedScene& scene) {
   const Accel accel = chosen_accel(request, Backend::vulkan, scene.subpatches.size());
   return needs_bvh(accel, request.shadows) && scene.bvh.empty() ? Accel::list : accel;
+}
+
+std::vector<const char*> tracing_kernels(Accel accel, uint32_t subgroup_size, bool by_address) {
+  switch (accel) {
+    case Accel::tiles:
+      return {"trace_tiles", "trace_undecided"};
+    case Accel::bvh: {
+      const char* const ray_by_ray = by_address ? "trace_bvh_at" : "trace_bvh";
+      // In a packet each lane of a subgroup tests one of the eight children of a node.
+      if (subgroup_size < 8) return {ray_by_ray};
+      return {by_address ? "trace_packets_at" : "trace_packets", ray_by_ray};
+    }
+    case Accel::rayquery:
+      return {"trace_query", "trace_bvh_at"};
+    default:
+      return {"trace_list"};
+  }
 }
 
 }  // namespace trisect

@@ -1,9 +1,10 @@
-// Which acceleration a frame is traced with.
+// Which acceleration a frame is traced with, and by which kernels. Pure functions.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "app/bake/bake.h"
 #include "app/buffers/kernel_choice.h"
@@ -11,25 +12,31 @@
 
 namespace trisect {
 
-// What decides which one.
+// What the choice of an acceleration depends on.
 struct AccelRequest {
-  std::optional<Accel> accel;  // chosen by the program if empty
+  std::optional<Accel> accel;  // the user's; empty: the program chooses
   uint solver = SOLVER_ROBUST;
   bool shadows = false;
-  uint32_t width = 800;  // rays in a row and in a column of the image
+  uint32_t width = 800;  // of the image in rays
   uint32_t height = 600;
 };
 
-// The one asked for, or, if that is left open, the one that is likely to be the fastest for a scene
-// of so many parts: tiles, or the tree if the scene has more than four parts for each tile of the
-// image, wherever they can be had. Throws UsageError if what is asked for cannot be.
+// The acceleration that the user asks for. If the user leaves it open, the one that is likely to be
+// the fastest for a scene of so many subpatches: tiles, or the BVH if there are more than four
+// subpatches per tile of the image; the list where neither is possible. Throws UsageError if what
+// the user asks for is not possible with this back end, solver and number of subpatches.
 Accel chosen_accel(const AccelRequest& request, Backend backend, std::size_t subpatches);
 
-// Whether rays need the scene's bvh: those of a camera, or those of shadows beside tiles.
+// Whether the frame's rays traverse the scene's BVH: all of them, or with tiles the shadow rays.
 bool needs_bvh(Accel accel, bool shadows);
 
-// Vulkan's for this scene as it is: chosen_accel's, or the list if that would need a tree which the
-// scene does not have. Both make the same picture.
+// chosen_accel() on Vulkan, or the list if that needs a BVH and the scene has none (yet). All
+// accelerations make the same picture.
 Accel accel_at_hand(const AccelRequest& request, const BakedScene& scene);
+
+// The names of the kernels that trace a frame's rays: the first one traces all new rays, the
+// second, if there is one, those that the first left undecided or did not finish. subgroup_size: as
+// gpu::Device has it. by_address: the scene's buffers are too large to be bound.
+std::vector<const char*> tracing_kernels(Accel accel, uint32_t subgroup_size, bool by_address);
 
 }  // namespace trisect

@@ -1,14 +1,15 @@
-// Who traces a frame.
+// The back ends, which all trace the same frame.
 #pragma once
 
 namespace trisect {
 
 enum class Backend { vulkan, opengl, cpu, oracle };
 
-// How OpenGL traces: the kernel of Vulkan, or the thesis's full-screen quad.
+// How the OpenGL back end traces: by a compute shader, the source of Vulkan's kernel, or by the
+// fragments of a full-screen quad, as in the thesis.
 enum class GlPath { compute, fragment };
 
-// As the command line and the JSON name it.
+// Names as on the command line and in JSON.
 constexpr const char* backend_name(Backend backend) {
   switch (backend) {
     case Backend::vulkan:

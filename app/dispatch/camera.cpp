@@ -13,7 +13,7 @@ using glm::dvec4;
 
 Camera framing_camera(std::span<const dvec3> vertices, const dvec3& center, double fov,
                       const dvec3& up, double aspect) {
-  // In a frame whose y is `up`: most of the way along z, some along x and y.
+  // The view direction, in a frame whose y axis is `up`: mostly along z, a little along x and y.
   const dvec3 y = glm::normalize(up);
   const dvec3 helper = std::abs(y.z) < 0.9 ? dvec3(0.0, 0.0, 1.0) : dvec3(0.0, -1.0, 0.0);
   const dvec3 z = glm::normalize(helper - y * glm::dot(helper, y));
@@ -21,8 +21,8 @@ Camera framing_camera(std::span<const dvec3> vertices, const dvec3& center, doub
   const dvec3 right = glm::normalize(glm::cross(y, backward));
   const dvec3 upward = glm::cross(backward, right);
 
-  // The vertices may fill this part of the image's width and height; curved surfaces bulge beyond
-  // them.
+  // The vertices fill at most this fraction of the image's width and height; the curved surfaces
+  // bulge beyond them.
   constexpr double fill = 0.84;
   const double half_height = fill * std::tan(glm::radians(fov) * 0.5);
   double distance = 0.0;
@@ -47,8 +47,8 @@ void set_rays(const Camera& camera, const dvec3& origin, double radius, double n
   }
   const double aspect = static_cast<double>(params.width) / static_cast<double>(params.height);
   const dvec3 eye = camera.eye - origin;
-  // The view matrix stands at the eye: what follows is relative to it and loses nothing far from
-  // the origin.
+  // The view matrix has its origin at the eye, so a camera far from the scene's origin loses no
+  // precision.
   const glm::dmat4 view = glm::lookAt(dvec3(0.0), forward, camera.up);
   const glm::dmat4 projection = glm::perspective(glm::radians(camera.fov), aspect, near, far);
   const glm::dmat4 unproject = glm::inverse(projection * view);
@@ -63,8 +63,9 @@ void set_rays(const Camera& camera, const dvec3& origin, double radius, double n
   params.ray_corner = vec4(glm::vec3(corner), 0.0F);
   params.ray_dx = vec4(glm::vec3(dx), 0.0F);
   params.ray_dy = vec4(glm::vec3(dy), 0.0F);
-  // The plane through the scene's origin, parallel to the near plane; from close by, where it is
-  // met far away by rays that meet the model at their beginning, a nearer one.
+  // The anchor lies in a plane parallel to the near plane: that through the scene's origin. Close
+  // to the model, rays at the image's corners would meet that plane far beyond their hits, so a
+  // nearer plane is taken.
   double depth = std::max(glm::dot(-eye, glm::normalize(forward)), near);
   if (glm::length(eye) < 2.0 * radius) {
     const double corner_slope = glm::length(corner - near_point(0.0, 0.0)) / near;

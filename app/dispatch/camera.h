@@ -21,11 +21,12 @@ struct Camera {
 Camera framing_camera(std::span<const glm::dvec3> vertices, const glm::dvec3& center, double fov,
                       const glm::dvec3& up, double aspect);
 
-// Fills in the rays of `params` for an image of params.width by params.height pixels, relative to
-// the scene origin, of a scene with this radius, between a near and a far plane at these distances
-// in front of the eye. Unprojects the corners of the clip volume by the double-precision inverse of
-// the view-projection matrix, as the thesis does; through them every pixel's near point is linear
-// in its position. Throws UsageError if the camera looks along its up vector or nowhere.
+// Fills in the members of `params` that describe a camera's rays, for an image of params.width x
+// params.height pixels. origin, radius: of the scene, in world units; the rays are relative to the
+// origin. near, far: distances of the two planes from the eye. Unprojects the corners of the clip
+// volume by the double-precision inverse of the view-projection matrix, as the thesis does; through
+// them every pixel's near point is linear in its position. Throws UsageError if the camera's target
+// is its eye, or if it looks along its up vector.
 void set_rays(const Camera& camera, const glm::dvec3& origin, double radius, double near,
               double far, TraceParams& params);
 

@@ -9,7 +9,8 @@
 namespace trisect {
 namespace {
 
-// No thread is kept too long here: rays do not pause.
+// Kernels pause a ray after a number of steps because a device may not be kept busy too long. A CPU
+// thread may: its rays never pause.
 constexpr int kSteps = std::numeric_limits<int>::max();
 
 using in_float::Kernel;
@@ -20,7 +21,8 @@ void finish_traversal(Kernel& kernel, const Kernel::PixelRay& ray, in_float::Tra
   }
 }
 
-// What a pixel's ray has met, in its shadow or not.
+// Casts the shadow ray of a pixel whose camera ray hit what `met` says, along `view`, and darkens
+// the pixel's colour if something is in its way.
 void cast_shadow(Kernel& kernel, const glm::vec3& view, PixelAovs& met, vec4& color) {
   const Kernel::PixelRay ray = kernel.shadow_ray(met, view);
   in_float::Traversal traversal = kernel.begin_shadow_traversal(met, view, kSteps);

@@ -1,4 +1,5 @@
-// The CPU back end: the kernel's own source in C++, single precision, one thread a core.
+// The CPU back end: the kernel's own source compiled as C++ in single precision, one thread per
+// core.
 #pragma once
 
 #include <span>
@@ -12,12 +13,12 @@
 
 namespace trisect {
 
-// Renders into `frame`. progress: as parallel_rows has it, of rows; false: it stopped the frame,
-// some of which is not written.
+// Renders into `frame`, which gets the size that `params` says. progress: called as parallel_rows()
+// calls it, with rows. Returns false if it stopped the frame, of which some rows are then missing.
 bool trace_on_cpu(const BakedScene& scene, const TraceParams& params, const KernelChoice& choice,
                   Frame& frame, const Progress& progress = {});
 
-// One hit for each ray, as RayCaster casts them.
+// The first hit of each ray, as RayCaster finds it.
 std::vector<CastHit> cast_on_cpu(const BakedScene& scene, const TraceParams& params, uint solver,
                                  std::span<const CastRay> rays);
 

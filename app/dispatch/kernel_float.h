@@ -1,5 +1,6 @@
-// The kernel as C++ in single precision: the shaders' source text, compiled a second time, as the
-// member functions of an object that holds what the kernel finds in its buffers and constants.
+// The kernel as C++ in single precision: the shaders' source text, compiled as the member functions
+// of an object whose data members stand for the kernel's buffers and specialisation constants.
+// Their names are therefore those of the GLSL.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -31,18 +32,18 @@ struct Kernel {
 
 #include "shaders/rays.glsl"
 #include "shaders/shading.glsl"
-// Here a ray's tile means nothing.
+// Only kernels that go by tiles use the parameter `tile`.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 #include "shaders/every_candidate.glsl"
 #pragma GCC diagnostic pop
-// The parts, above, are what a ray goes through.
+// Needs the candidates, above.
 #include "shaders/trace.glsl"
-// What has been met casts shadows.
+// Needs the traversal, above.
 #include "shaders/shadow.glsl"
-// What a camera sees needs its frame, above.
+// Needs the camera's frame of rays.glsl.
 #include "shaders/project_subpatch.glsl"
-// The box and the lines of that.
+// Needs project_subpatch.glsl.
 #include "shaders/overlaps_rect.glsl"
 };
 
@@ -51,9 +52,9 @@ struct Kernel {
 #undef OUT
 #undef INOUT
 
-// The kernel that a back end makes of the same scene and choice, for what a camera sees: SHADOWS is
-// false. Keeps references to both of the first two. Each thread needs a copy: GLSL knows no const
-// functions.
+// The kernel that a back end makes of the same scene and choice, for camera rays: SHADOWS is false.
+// It keeps references to `scene` and `params`, which must outlive it. Its functions are not const,
+// because GLSL has no such thing: each thread needs a copy of its own.
 Kernel kernel_of(const BakedScene& scene, const TraceParams& params, const KernelChoice& choice);
 
 }  // namespace trisect::in_float

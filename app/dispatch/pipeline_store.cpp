@@ -15,7 +15,8 @@ namespace {
 
 using Checksum = uint64_t;
 
-// Fowler, Noll & Vo's hash FNV-1a of 64 bits. Drivers check a cache's header, not its body.
+// The 64-bit hash FNV-1a of Fowler, Noll and Vo. Drivers check the header of a pipeline cache but
+// not its body, so the store checks that.
 Checksum checksum_of(const std::vector<std::byte>& data) {
   Checksum sum = 0xcbf29ce484222325U;
   for (const std::byte byte : data) sum = (sum ^ std::to_integer<Checksum>(byte)) * 0x100000001b3U;
@@ -61,7 +62,7 @@ PipelineStore::~PipelineStore() {
   try {
     keep();
   } catch (const std::exception&) {
-    // Whoever cannot keep them has lost time, no more.
+    // The next run compiles the pipelines again, which costs time and nothing else.
   }
 }
 

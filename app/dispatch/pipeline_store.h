@@ -1,4 +1,4 @@
-// Compiled pipelines that outlive the program, in files of a folder.
+// A cache on disk of the pipelines that a driver has compiled.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,15 @@
 
 namespace trisect {
 
-// What a store's file holds behind its checksum; nothing if there is none or that is wrong.
+// The pipeline data in a store's file; empty if there is no such file or its checksum is wrong.
 std::vector<std::byte> kept_pipelines(const std::filesystem::path& file);
 
-// Adds what an earlier run kept for this device and driver to the device's pipelines, and keeps
-// them when it is destroyed. A file that is damaged is as good as none, a folder that cannot be
-// written as well: pipelines are compiled anew.
+// On construction, adds the pipelines that an earlier run stored for this device and driver to the
+// device's pipeline cache; on destruction, stores the cache. Never fails: if the file is damaged or
+// the folder cannot be written, pipelines are compiled anew.
 class PipelineStore {
  public:
-  // The device must outlive the store.
+  // folder: nothing is read or stored without one. The device must outlive the store.
   PipelineStore(const gpu::Device& device, const std::optional<std::filesystem::path>& folder);
   ~PipelineStore();
   PipelineStore(const PipelineStore&) = delete;

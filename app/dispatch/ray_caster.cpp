@@ -10,7 +10,7 @@
 namespace trisect {
 namespace {
 
-// Rays in device memory at a time, and bytes moved at a time.
+// Rays in device memory at a time.
 constexpr std::size_t kBatch = std::size_t{1} << 18U;
 constexpr std::size_t kBatchBytes = kBatch * sizeof(CastRay);
 
@@ -20,13 +20,12 @@ std::shared_ptr<const gpu::Kernel> RayCaster::kernel_for(const gpu::Device& devi
                                                          const SurfaceChoice& choice, uint solver,
                                                          const Needs& needs) {
   return std::make_shared<const gpu::Kernel>(
-      device, needs.bvh ? kCastByBvhSpirv : kCastRaysSpirv, cast_rays_interface(),
-      std::vector<gpu::Specialization>{{CONSTANT_SURFACE, choice.surface},
-                                       {CONSTANT_SHELL, choice.shell},
-                                       {CONSTANT_SOLVER, solver},
-                                       {CONSTANT_DIVIDED, needs.groups ? 1U : 0U},
-                                       {CONSTANT_NONSMOOTH, needs.kinks ? 1U : 0U}},
-      "cast_rays");
+      make_kernel(device, kernel_name(needs.bvh),
+                  {{CONSTANT_SURFACE, choice.surface},
+                   {CONSTANT_SHELL, choice.shell},
+                   {CONSTANT_SOLVER, solver},
+                   {CONSTANT_DIVIDED, needs.divided ? 1U : 0U},
+                   {CONSTANT_NONSMOOTH, needs.nonsmooth ? 1U : 0U}}));
 }
 
 RayCaster::RayCaster(const gpu::Device& device, const BakedScene& scene, const TraceParams& params,
@@ -38,13 +37,14 @@ RayCaster::RayCaster(const gpu::Device& device, const BakedScene& scene, const T
       commands_(device),
       staging_(device, kBatchBytes),
       params_(device, sizeof(TraceParams), gpu::Memory::device, "trace parameters"),
-      scene_(device, scene, device.limits().maxStorageBufferRange, SceneBuffers::ByAddress::never),
+      scene_(device, scene, device.limits().maxStorageBufferRange,
+             {SceneBuffers::ByAddress::never, !scene.bvh.empty()}),
       rays_(device, kBatch * sizeof(CastRay), gpu::Memory::device, "rays"),
       hits_(device, kBatch * sizeof(CastHit), gpu::Memory::device, "hits"),
       queue_(device, kBatch, steps),
-      bound_(device, *kernel_,
-             {&params_, &scene_.triangles(), &scene_.subpatches(), &rays_, &hits_, &queue_.paused(),
-              &queue_.queued(), &scene_.bvh()}) {
+      descriptors_(device, *kernel_,
+                   {&params_, &scene_.triangles(), &scene_.subpatches(), &rays_, &hits_,
+                    &queue_.paused(), &queue_.queued(), &scene_.bvh()}) {
   staging_.upload(commands_, std::as_bytes(std::span(&params, 1)), params_);
   scene_.upload(staging_, commands_, scene);
 }
@@ -59,9 +59,9 @@ std::vector<CastHit> RayCaster::cast(std::span<const CastRay> rays) {
       const auto groups = static_cast<uint32_t>(
           std::min<std::size_t>(budget.groups(), (count - done + CAST_SIZE - 1) / CAST_SIZE));
       const CastPush push{{}, static_cast<uint>(done), static_cast<uint>(count)};
-      // Nobody is asked whether to go on: there is a time.
-      budget.record(groups,
-                    *queue_.run(commands_, {kernel_.get(), 1}, bound_, push, groups, CAST_SIZE));
+      // Without a KeepGoing the run is never stopped, so there is a time.
+      budget.record(groups, *queue_.run(commands_, {kernel_.get(), 1}, descriptors_, push, groups,
+                                        CAST_SIZE));
       done += std::size_t{groups} * CAST_SIZE;
     }
     staging_.download(commands_, hits_,

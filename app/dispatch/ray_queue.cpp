@@ -14,12 +14,12 @@ RayQueue::RayQueue(const gpu::Device& device, uint32_t rays, uint32_t steps)
 
 std::optional<double> RayQueue::run_all(gpu::Commands& commands,
                                         std::span<const gpu::Kernel> kernels,
-                                        const gpu::DescriptorSet& bound, uint32_t groups,
+                                        const gpu::DescriptorSet& descriptors, uint32_t groups,
                                         uint32_t group_rays, const KeepGoing& keep_going,
                                         const PushBytes& push_bytes) {
   if (groups > rays_ / group_rays) throw std::logic_error("more rays than the queue has places");
   double gpu_ms = 0.0;
-  const bool all =
+  const bool finished =
       run_until_finished(steps_, rays_, [&](const QueuePush& queue) -> std::optional<uint32_t> {
         if (queue.pass > 0) {
           groups = (queue.resumed + group_rays - 1) / group_rays;
@@ -29,13 +29,13 @@ std::optional<double> RayQueue::run_all(gpu::Commands& commands,
         std::memcpy(queued_.bytes().data(), &state, sizeof(state));
         commands.begin();
         const std::size_t kernel = std::min<std::size_t>(queue.pass, kernels.size() - 1);
-        commands.dispatch(kernels[kernel], bound, push_bytes(queue), groups);
+        commands.dispatch(kernels[kernel], descriptors, push_bytes(queue), groups);
         gpu_ms += commands.submit_and_wait();
         std::memcpy(&state, queued_.bytes().data(), sizeof(state));
         bytes_read_ += bytes_in(state);
         return state.queued;
       });
-  return all ? std::optional(gpu_ms) : std::nullopt;
+  return finished ? std::optional(gpu_ms) : std::nullopt;
 }
 
 }  // namespace trisect

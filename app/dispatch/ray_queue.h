@@ -1,4 +1,5 @@
-// Walks that outlast a submit: their rays pause in a queue, and further submits go on with them.
+// Traversals that take longer than a submit may: their rays pause in a queue on the device, and
+// further submits resume them.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +15,15 @@
 
 namespace trisect {
 
+// The 64-bit count of bytes read that the kernels keep in two words.
 inline uint64_t bytes_in(const QueueState& state) {
   return (uint64_t{state.bytes_high} << 32U) + state.bytes_low;
 }
 
-// Calls submit(queue) until no ray is left, for new rays first: it runs the kernel with these push
-// constants and returns how many rays paused, or nothing to stop: then false is returned. half:
-// places of a queue's half, 0 if a ray has its own.
+// Calls submit(queue) first for new rays (queue.pass is 0), then for the rays that paused, until
+// none is left. submit runs the kernel with these push constants and returns how many rays paused,
+// or nothing to stop. Returns false if it stopped. steps: of a ray per submit. half: how many rays
+// a half of the queue holds; 0 if every ray has a place of its own and the halves are not used.
 template <typename Submit>
 bool run_until_finished(uint32_t steps, uint32_t half, Submit&& submit) {
   QueuePush queue{0, steps, 0, half, 0};
@@ -34,49 +37,54 @@ bool run_until_finished(uint32_t steps, uint32_t half, Submit&& submit) {
   }
 }
 
+// The queue's buffers on a Vulkan device, which must outlive it. For one thread at a time.
 class RayQueue {
  public:
-  // For submits of at most `rays` new rays. Takes 96 bytes for each. steps: of a ray in one submit;
-  // fewer than kSteps to test it.
+  // For submits of at most `rays` new rays; takes 96 bytes of device memory for each. steps: of a
+  // ray per submit; tests take fewer than kSteps so that rays pause. Throws DeviceError if there is
+  // no memory.
   RayQueue(const gpu::Device& device, uint32_t rays, uint32_t steps = kSteps);
 
   // What kernels bind as BINDING_QUEUE and BINDING_QUEUED.
   [[nodiscard]] const gpu::Buffer& paused() const { return paused_; }
   [[nodiscard]] const gpu::Buffer& queued() const { return queued_; }
 
-  // Runs `groups` workgroups of `group_rays` invocations of the first kernel, each with a new ray,
-  // then submits what paused to the next one, and to the last until nothing is left. Push: of
-  // shared.h with a member `queue`, which is set here. keep_going is asked between any two submits.
-  // Returns milliseconds on the device; nothing if it said stop.
+  // Submits `groups` workgroups of the first kernel, `group_rays` new rays each; then the rays that
+  // paused to the second kernel, and so on, to the last kernel as often as it takes. Push: TilePush
+  // or CastPush, whose member `queue` is set here. keep_going is asked between two submits. Returns
+  // the milliseconds on the device, or nothing if keep_going stopped it.
   template <typename Push>
   std::optional<double> run(gpu::Commands& commands, std::span<const gpu::Kernel> kernels,
-                            const gpu::DescriptorSet& bound, Push push, uint32_t groups,
+                            const gpu::DescriptorSet& descriptors, Push push, uint32_t groups,
                             uint32_t group_rays, const KeepGoing& keep_going = {}) {
-    return run_all(commands, kernels, bound, groups, group_rays, keep_going,
+    return run_all(commands, kernels, descriptors, groups, group_rays, keep_going,
                    [&push](const QueuePush& queue) {
                      push.queue = queue;
                      return std::as_bytes(std::span<const Push>(&push, 1));
                    });
   }
 
-  // What rays have read of the scene since begin_count(), if the kernels count it.
+  // Bytes of the scene that rays have read since begin_count(), if the kernels count them
+  // (KernelChoice::counts).
   void begin_count() { bytes_read_ = 0; }
   [[nodiscard]] uint64_t bytes_read() const { return bytes_read_; }
 
-  // llvmpipe ends all loops of a subgroup, of at most 16 rays, after 65535 iterations.
+  // llvmpipe silently ends all loops of a subgroup after 65535 iterations. At worst no two of its
+  // rays, of which there are at most 16, take a step in the same iteration: 16 x 4000 is below
+  // that.
   static constexpr uint32_t kSteps = 4000;
 
  private:
   using PushBytes = std::function<std::span<const std::byte>(const QueuePush&)>;
   std::optional<double> run_all(gpu::Commands& commands, std::span<const gpu::Kernel> kernels,
-                                const gpu::DescriptorSet& bound, uint32_t groups,
+                                const gpu::DescriptorSet& descriptors, uint32_t groups,
                                 uint32_t group_rays, const KeepGoing& keep_going,
                                 const PushBytes& push_bytes);
 
   uint32_t rays_;
   uint32_t steps_;
-  gpu::Buffer paused_;  // in two halves: one is read while the other is filled
-  gpu::Buffer queued_;  // a QueueState, of the half that is filled
+  gpu::Buffer paused_;  // PausedRays, two halves of rays_: one is read while the other is filled
+  gpu::Buffer queued_;  // a QueueState, for the half that is filled
   uint64_t bytes_read_ = 0;
 };
 

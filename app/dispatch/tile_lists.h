@@ -1,4 +1,5 @@
-// The lists of the parts that every tile of the image touches, made on the device for each frame.
+// For every tile of the image, the list of the subpatches whose projections overlap it; made on the
+// device for each frame.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +11,21 @@
 
 namespace trisect {
 
+// For one thread at a time; the device must outlive it.
 class TileLists {
  public:
-  // constants: those of the kernels that trace; code: compiled anew, or null for what was built in.
-  // band_rows: of the bands that lists are made for.
+  // In shaders/CMakeLists.txt. They share the descriptor set of the kernels that trace.
+  static constexpr const char* kProjectKernel = "project_subpatches";
+  static constexpr const char* kBinKernel = "bin_subpatches";
+  static constexpr const char* kSkyKernel = "fill_sky";
+
+  // constants: those of the kernels that trace. code: as spirv_of() takes it. subpatches: of the
+  // scene. width, band_rows: the largest band of the image in pixels, for which lists are made at a
+  // time. Throws DeviceError if there is no memory.
   TileLists(const gpu::Device& device, const std::vector<gpu::Specialization>& constants,
             const KernelCode* code, uint32_t subpatches, uint32_t width, uint32_t band_rows);
 
-  // For images of another size.
+  // For bands of another size. Throws DeviceError if there is no memory.
   void resize(const gpu::Device& device, uint32_t width, uint32_t band_rows);
 
   // What kernels bind as BINDING_PROJECTED, BINDING_TILE_COUNTS, BINDING_TILE_SUBPATCHES,
@@ -28,22 +36,25 @@ class TileLists {
   [[nodiscard]] const gpu::Buffer& order() const { return tiles_.order; }
   [[nodiscard]] const gpu::Buffer& seen() const { return seen_; }
 
-  // Of all of them.
+  // Bytes of device memory of all of them.
   [[nodiscard]] std::size_t bytes() const {
     return projected_.size() + tiles_.counts.size() + tiles_.subpatches.size() +
            tiles_.order.size() + seen_.size();
   }
 
-  // Looks at all parts with a new camera. Milliseconds on the device, as below.
-  double view(gpu::Commands& commands, const gpu::DescriptorSet& bound);
+  // Projects all subpatches for the camera in the bound TraceParams. Returns milliseconds on the
+  // device. descriptors: a set of frame_interface() in which the buffers above are bound.
+  double project(gpu::Commands& commands, const gpu::DescriptorSet& descriptors);
 
-  // Makes the lists of a band, and fills in the sky where they are empty. width: of the image, at
-  // most that which the lists were made for. tiles_seen: how many are not empty.
-  double bin(gpu::Commands& commands, const gpu::DescriptorSet& bound, uint32_t width,
+  // Makes the lists of the band of `rows` rows from first_row on, and fills in the sky where a list
+  // is empty. width: of the image in pixels, at most that of the constructor or of resize(). Sets
+  // tiles_seen to the number of tiles whose lists are not empty. Returns milliseconds on the
+  // device.
+  double bin(gpu::Commands& commands, const gpu::DescriptorSet& descriptors, uint32_t width,
              uint32_t first_row, uint32_t rows, uint32_t& tiles_seen);
 
  private:
-  // What depends on the image's size.
+  // The buffers whose sizes depend on the image's.
   struct Tiles {
     Tiles(const gpu::Device& device, uint32_t width, uint32_t band_rows);
 
@@ -52,8 +63,8 @@ class TileLists {
     gpu::Buffer order;
   };
 
-  uint32_t groups_;  // of parts
-  gpu::Kernel view_kernel_;
+  uint32_t groups_;  // workgroups, of SUBPATCH_GROUP_SIZE subpatches each
+  gpu::Kernel project_kernel_;
   gpu::Kernel bin_kernel_;
   gpu::Kernel sky_kernel_;
   gpu::Buffer projected_;

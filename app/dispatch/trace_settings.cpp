@@ -26,9 +26,10 @@ TraceParams make_params(const BakedScene& scene, const TraceSettings& settings) 
   params.resolution = static_cast<float>(std::ldexp(1.0, -static_cast<int>(settings.rank)));
   params.min_delta = static_cast<float>(settings.min_delta);
   params.light = vec4(glm::vec3(glm::normalize(settings.light)), 0.0F);
-  // Four cells of the grid to half the diagonal of the vertices' box, whatever the surface.
+  // Four cells of the shading grid to half the diagonal of the vertices' bounding box: the same
+  // grid for every surface of a mesh.
   params.grid = vec4(0.0F, 0.0F, 0.0F, static_cast<float>(4.0 / scene.extent));
-  // Nothing nearer than a thousandth of the scene's size, nothing beyond the scene.
+  // The near plane is at a thousandth of the scene's radius, the far plane behind the scene.
   const double near = scene.radius * 1e-3;
   const double far = glm::distance(settings.camera.eye, scene.origin) + scene.radius + near;
   set_rays(settings.camera, scene.origin, scene.radius, near, far, params);

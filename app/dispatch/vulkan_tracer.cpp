@@ -9,6 +9,7 @@
 #include "app/base/stopwatch.h"
 #include "app/buffers/buffer_limits.h"
 #include "app/buffers/kernels.h"
+#include "app/dispatch/accel.h"
 #include "app/dispatch/workgroups.h"
 #include "vk/result.h"
 
@@ -41,37 +42,21 @@ std::optional<TileLists> lists_for(const gpu::Device& device, const BakedScene& 
                                   static_cast<uint32_t>(scene.subpatches.size()), width, band_rows);
 }
 
-SceneBuffers::ByAddress by_address_for(const gpu::Device& device, Accel accel) {
-  if (accel == Accel::rayquery && !device.has_ray_query()) {
-    throw DeviceError(device.report().name +
-                      " lacks the ray queries of --accel rayquery; use --accel bvh.");
-  }
-  if (accel == Accel::rayquery) return SceneBuffers::ByAddress::always;
-  return accel == Accel::bvh ? SceneBuffers::ByAddress::if_large : SceneBuffers::ByAddress::never;
-}
-
-struct NamedKernel {
-  std::span<const uint32_t> spirv;
-  const char* name;
-};
-
-// What traces new rays, then what goes on with those that it leaves, and so on.
-std::vector<NamedKernel> kernel_names(const gpu::Device& device, Accel accel, bool by_address) {
-  switch (accel) {
-    case Accel::tiles:
-      return {{kTraceTilesSpirv, "trace_tiles"}, {kTraceUndecidedSpirv, "trace_undecided"}};
-    case Accel::bvh: {
-      const NamedKernel alone = by_address ? NamedKernel{kTraceBvhAtSpirv, "trace_bvh_at"}
-                                           : NamedKernel{kTraceBvhSpirv, "trace_bvh"};
-      // A subgroup tests the eight children of a node at once.
-      if (device.subgroup_size() < 8) return {alone};
-      if (by_address) return {{kTracePacketsAtSpirv, "trace_packets_at"}, alone};
-      return {{kTracePacketsSpirv, "trace_packets"}, alone};
-    }
+// Throws DeviceError if the device cannot do what the acceleration needs.
+SceneBuffers::Needs needs_of(const gpu::Device& device, const KernelChoice& choice) {
+  using ByAddress = SceneBuffers::ByAddress;
+  const bool bvh = needs_bvh(choice.accel, choice.shadows);
+  switch (choice.accel) {
     case Accel::rayquery:
-      return {{kTraceQuerySpirv, "trace_query"}, {kTraceBvhAtSpirv, "trace_bvh_at"}};
+      if (!device.has_ray_query()) {
+        throw DeviceError(device.report().name +
+                          " lacks the ray queries of --accel rayquery; use --accel bvh.");
+      }
+      return {ByAddress::always, bvh};
+    case Accel::bvh:
+      return {ByAddress::if_large, bvh};
     default:
-      return {{kTraceListSpirv, "trace_list"}};
+      return {ByAddress::never, bvh};
   }
 }
 
@@ -79,14 +64,14 @@ std::vector<gpu::Kernel> kernels_for(const gpu::Device& device, Accel accel, boo
                                      const std::vector<gpu::Specialization>& constants,
                                      const KernelCode* code) {
   std::vector<gpu::Kernel> kernels;
-  for (const NamedKernel& kernel : kernel_names(device, accel, by_address)) {
-    kernels.emplace_back(device, newest(code, kernel.name, kernel.spirv), frame_interface(),
-                         constants, kernel.name);
+  for (const char* name : tracing_kernels(accel, device.subgroup_size(), by_address)) {
+    kernels.push_back(make_kernel(device, name, constants, code));
   }
   return kernels;
 }
 
-// For rays that start from what a frame's have met: any ray may.
+// The kernels for shadow rays, which start at what the camera rays hit. They have no tile: with
+// tiles they traverse the BVH.
 std::vector<gpu::Kernel> shadow_kernels_for(const gpu::Device& device, const BakedScene& scene,
                                             const KernelChoice& choice, bool by_address,
                                             const KernelCode* code) {
@@ -102,7 +87,7 @@ std::vector<gpu::Kernel> shadow_kernels_for(const gpu::Device& device, const Bak
 VulkanTracer::ImageBuffers::ImageBuffers(const gpu::Device& device, uint32_t width,
                                          uint32_t band_rows, bool with_aovs)
     : colors(device, std::size_t{width} * band_rows * sizeof(vec4), gpu::Memory::device, "colors"),
-      // A binding wants a buffer; without AOVs nothing is written to it.
+      // A binding needs a buffer; without AOVs it has one element that no kernel writes.
       aovs(device, (with_aovs ? std::size_t{width} * band_rows : 1) * sizeof(PixelAovs),
            gpu::Memory::device, "AOVs"),
       queue(device, groups_of_band(width, 0, band_rows).most() * kGroupRays) {}
@@ -118,7 +103,7 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
       buffer_limit_(std::min<std::size_t>(buffer_limit, device.limits().maxStorageBufferRange)),
       band_rows_(rows_in_a_band(device.report().name, buffer_limit_, width, height, writes_aovs_)),
       tiles_(lists_for(device, scene, choice, code, width, band_rows_)),
-      scene_(device, scene, buffer_limit_, by_address_for(device, choice.accel)),
+      scene_(device, scene, buffer_limit_, needs_of(device, choice)),
       kernels_(kernels_for(device, choice.accel, scene_.by_address(), constants_of(scene, choice),
                            code)),
       shadow_kernels_(shadow_kernels_for(device, scene, choice, scene_.by_address(), code)),
@@ -127,7 +112,7 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
       params_(device, sizeof(TraceParams), gpu::Memory::device, "trace parameters"),
       image_(device, width, band_rows_, writes_aovs_),
       unused_(device, sizeof(vec4), gpu::Memory::device, "unused"),
-      bound_(bind()) {
+      descriptors_(bind()) {
   const Stopwatch watch;
   scene_.upload(staging_, commands_, scene);
   if (choice.accel == Accel::rayquery) {
@@ -149,30 +134,30 @@ gpu::DescriptorSet VulkanTracer::bind() const {
 void VulkanTracer::resize(uint32_t width, uint32_t height) {
   const uint32_t rows =
       rows_in_a_band(device_.report().name, buffer_limit_, width, height, writes_aovs_);
-  // Until all is there nothing fits: what throws leaves a tracer that can be resized again.
+  // If an allocation throws, no frame fits the tracer, and it can be resized again.
   width_ = height_ = band_rows_ = 0;
   image_ = ImageBuffers(device_, width, rows, writes_aovs_);
   if (tiles_) tiles_->resize(device_, width, rows);
-  bound_ = bind();
+  descriptors_ = bind();
   width_ = width;
   height_ = height;
   band_rows_ = rows;
 }
 
-double VulkanTracer::look(const TraceParams& params) {
+double VulkanTracer::project(const TraceParams& params) {
   if (params.width > width_ || params.height > height_) {
     throw std::logic_error("the trace parameters are not for this tracer's image size");
   }
   staging_.upload(commands_, std::as_bytes(std::span(&params, 1)), params_);
   image_.queue.begin_count();
-  return tiles_ ? tiles_->view(commands_, bound_) : 0.0;
+  return tiles_ ? tiles_->project(commands_, descriptors_) : 0.0;
 }
 
 std::optional<FrameTime> VulkanTracer::render(const TraceParams& params, Frame& frame,
                                               const KeepGoing& keep_going) {
   const Stopwatch watch;
   FrameTime time;
-  time.gpu_ms += look(params);
+  time.gpu_ms += project(params);
   frame.resize(params.width, params.height, aovs_);
   for (uint32_t row = 0; row < params.height; row += band_rows_) {
     const uint32_t rows = std::min(band_rows_, params.height - row);
@@ -206,7 +191,7 @@ std::optional<double> VulkanTracer::trace(const TraceParams& params, const KeepG
   if (!holds_at_once(params.width, params.height)) {
     throw std::logic_error("the frame does not fit into the output buffers");
   }
-  const double ms = look(params);
+  const double ms = project(params);
   const std::optional<double> band_ms = render_band(params, 0, params.height, keep_going);
   return band_ms ? std::optional(ms + *band_ms) : std::nullopt;
 }
@@ -218,7 +203,7 @@ std::optional<double> VulkanTracer::render_band(const TraceParams& params, uint3
   GroupRange groups = all;
   if (tiles_) {
     groups = {0, 0};
-    gpu_ms += tiles_->bin(commands_, bound_, params.width, first_row, rows, groups.end);
+    gpu_ms += tiles_->bin(commands_, descriptors_, params.width, first_row, rows, groups.end);
   }
   const std::optional<double> ms = run(kernels_, groups, first_row, rows, keep_going);
   if (!ms) return std::nullopt;
@@ -238,8 +223,8 @@ std::optional<double> VulkanTracer::run(std::span<const gpu::Kernel> kernels, Gr
   for (uint32_t group = groups.begin; group < groups.end;) {
     const uint32_t count = std::min({budget_.groups(), groups.end - group, groups.most()});
     const std::optional<double> ms =
-        image_.queue.run(commands_, kernels, bound_, TilePush{{}, group, first_row, rows}, count,
-                         kGroupRays, keep_going);
+        image_.queue.run(commands_, kernels, descriptors_, TilePush{{}, group, first_row, rows},
+                         count, kGroupRays, keep_going);
     if (!ms) return std::nullopt;
     gpu_ms += *ms;
     group += count;

@@ -23,50 +23,57 @@
 
 namespace trisect {
 
+// For one thread at a time. The device must outlive the tracer; the scene need not.
 class VulkanTracer {
  public:
-  // Uploads the scene and compiles the kernels for it. width, height: the most pixels of a frame's
-  // sides. buffer_limit: the most bytes a buffer may have, if less than the device's own limit.
-  // code: kernels compiled anew, or null for those that were built in. Throws DeviceError if the
-  // device cannot hold the scene.
+  // Uploads the scene, its BVH only if the choice needs it, and compiles the kernels. width,
+  // height: the largest frame in pixels. choice: accelerations and shadows that need the BVH need a
+  // scene that has one. buffer_limit: the most bytes of a buffer, if less than the device's own
+  // limit. code: as spirv_of() takes it. Throws DeviceError if the device cannot hold the scene or
+  // lacks what the choice needs.
   VulkanTracer(const gpu::Device& device, const BakedScene& scene, uint32_t width, uint32_t height,
                const KernelChoice& choice, std::size_t buffer_limit = kNoLimit,
                const KernelCode* code = nullptr);
 
-  // Renders into `frame`, in submits of bounded time. params.width and .height must be at most the
-  // tracer's. keep_going is asked between any two submits; nothing is returned if it says stop, and
-  // the frame is not whole.
+  // Renders into `frame`, which gets the size that `params` says, in submits of bounded time. An
+  // image that the output buffers do not hold is rendered in bands of rows. keep_going is asked
+  // between two submits; if it says stop, nothing is returned and the frame is incomplete. Throws
+  // std::logic_error if the image is larger than the tracer's, DeviceError if the device is lost.
   std::optional<FrameTime> render(const TraceParams& params, Frame& frame,
                                   const KeepGoing& keep_going = {});
 
-  // The same, but the frame stays on the device, in colors() and aovs(); it must be one that
-  // holds_at_once() says. Returns milliseconds on the device.
+  // The same, but the frame stays on the device, in colors() and aovs(). Returns milliseconds on
+  // the device. Throws std::logic_error unless holds_at_once() is true for the frame's size.
   std::optional<double> trace(const TraceParams& params, const KeepGoing& keep_going = {});
 
-  // What trace() left on the device.
+  // Copies the frame that trace() left on the device. params: those of trace().
   void fetch(const TraceParams& params, Frame& frame);
 
-  // Whether the output buffers hold such a frame as a whole.
+  // Whether the output buffers hold a frame of this size as a whole.
   [[nodiscard]] bool holds_at_once(uint32_t width, uint32_t height) const {
     return width <= width_ && height <= band_rows_;
   }
 
-  // vec4s, sRGB-encoded, and PixelAovs if the choice has them, in raster order.
+  // The output buffers, in raster order: a vec4 per pixel, RGB encoded as sRGB and alpha; and a
+  // PixelAovs per pixel if the choice has AOVs or shadows, else one element. resize() replaces
+  // them.
   [[nodiscard]] const gpu::Buffer& colors() const { return image_.colors; }
   [[nodiscard]] const gpu::Buffer& aovs() const { return image_.aovs; }
 
-  // For frames of another size. Kernels and scene stay.
+  // For frames of another size; kernels and scene stay. If it throws DeviceError, for lack of
+  // memory, the tracer holds no frame and can be resized again.
   void resize(uint32_t width, uint32_t height);
 
+  // What the constructor took for the upload, by the host's clock.
   [[nodiscard]] double upload_ms() const { return upload_ms_; }
 
-  // Of device memory, for all that is not an image or a queue of rays.
+  // Bytes of device memory for the scene and for tile lists: all but the images and the ray queue.
   [[nodiscard]] std::size_t scene_bytes() const {
     return scene_.bytes() + (tiles_ ? tiles_->bytes() : 0);
   }
 
  private:
-  // What depends on the frame's size.
+  // The buffers whose sizes depend on the frame's.
   struct ImageBuffers {
     ImageBuffers(const gpu::Device& device, uint32_t width, uint32_t band_rows, bool with_aovs);
 
@@ -77,7 +84,9 @@ class VulkanTracer {
 
   [[nodiscard]] gpu::DescriptorSet bind() const;
   void download_band(uint32_t first_row, uint32_t rows, Frame& frame);
-  double look(const TraceParams& params);
+  // Uploads the parameters and, with tiles, projects the subpatches. Returns milliseconds on the
+  // device, like the others below, which return nothing if keep_going stopped them.
+  double project(const TraceParams& params);
   std::optional<double> render_band(const TraceParams& params, uint32_t first_row, uint32_t rows,
                                     const KeepGoing& keep_going);
   std::optional<double> run(std::span<const gpu::Kernel> kernels, GroupRange groups,
@@ -92,14 +101,14 @@ class VulkanTracer {
   uint32_t band_rows_;
   std::optional<TileLists> tiles_;
   SceneBuffers scene_;
-  std::vector<gpu::Kernel> kernels_;         // for new rays, then for those that pause
-  std::vector<gpu::Kernel> shadow_kernels_;  // the same for shadows
+  std::vector<gpu::Kernel> kernels_;         // of tracing_kernels(), for camera rays
+  std::vector<gpu::Kernel> shadow_kernels_;  // the same for shadow rays
   gpu::Commands commands_;
   gpu::Staging staging_;
   gpu::Buffer params_;
   ImageBuffers image_;
   gpu::Buffer unused_;
-  gpu::DescriptorSet bound_;
+  gpu::DescriptorSet descriptors_;
   double upload_ms_ = 0.0;
   SubmitBudget budget_;
 };

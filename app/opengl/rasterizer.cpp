@@ -29,12 +29,13 @@ Rasterizer::Rasterizer(const BakedScene& scene, const TraceParams& params, uint3
       triangles_(bytes_, "triangles"),
       params_buffer_(sizeof(TraceParams), "trace parameters"),
       sky_(make_program(shader_head(scene, {SOLVER_ROBUST, aovs}, false),
-                        {{GL_VERTEX_SHADER, kFullScreenVert}, {GL_FRAGMENT_SHADER, kSkyFrag}})),
+                        {{GL_VERTEX_SHADER, glsl_of("full_screen.vert")},
+                         {GL_FRAGMENT_SHADER, glsl_of("sky.frag")}})),
       surface_(make_program(shader_head(scene, {SOLVER_ROBUST, aovs}, false),
-                            {{GL_VERTEX_SHADER, kTessellatedVert},
-                             {GL_TESS_CONTROL_SHADER, kTessellatedTesc},
-                             {GL_TESS_EVALUATION_SHADER, kTessellatedTese},
-                             {GL_FRAGMENT_SHADER, kTessellatedFrag}})),
+                            {{GL_VERTEX_SHADER, glsl_of("tessellated.vert")},
+                             {GL_TESS_CONTROL_SHADER, glsl_of("tessellated.tesc")},
+                             {GL_TESS_EVALUATION_SHADER, glsl_of("tessellated.tese")},
+                             {GL_FRAGMENT_SHADER, glsl_of("tessellated.frag")}})),
       target_(params.width, params.height, aovs),
       vertices_(make_vertex_array()) {
   triangles_.write(std::as_bytes(std::span(scene.triangles)));

@@ -6,7 +6,6 @@
 #include <glslang/SPIRV/GlslangToSpv.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
@@ -20,38 +19,16 @@
 #include <vector>
 
 #include "app/base/error.h"
+#include "app/buffers/kernels.h"
 
 namespace trisect::view {
 namespace {
 
-struct KernelSource {
-  const char* kernel;
-  const char* file;
-  const char* preamble;
-  bool queries = false;  // rays, which takes SPIR-V 1.4
-};
-
-// As in shaders/CMakeLists.txt.
-constexpr const char* kAddresses = "#define TRISECT_ADDRESSES\n";
-constexpr auto kSources = std::to_array<KernelSource>({
-    {"trace_list", "trace_list.comp", ""},
-    {"project_subpatches", "project_subpatches.comp", ""},
-    {"bin_subpatches", "bin_subpatches.comp", ""},
-    {"fill_sky", "fill_sky.comp", ""},
-    {"trace_tiles", "trace_tiles.comp", ""},
-    {"trace_undecided", "trace_undecided.comp", ""},
-    {"trace_packets", "trace_packets.comp", ""},
-    {"trace_bvh", "trace_bvh.comp", ""},
-    {"trace_packets_at", "trace_packets.comp", kAddresses},
-    {"trace_bvh_at", "trace_bvh.comp", kAddresses},
-    {"trace_query", "trace_query.comp", "", true},
-});
-
-constexpr int kDefaultVersion = 100;  // of a source that names none
-constexpr int kVulkanDialect = 100;   // of GLSL, as GL_KHR_vulkan_glsl counts
+constexpr int kDefaultVersion = 100;  // #version of a source without one
+constexpr int kVulkanDialect = 100;   // the value of the macro VULKAN (GL_KHR_vulkan_glsl)
 constexpr auto kMessages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
 
-// glslang's tables, which live as long as the program.
+// glslang's global state, initialised once per process.
 class Glslang {
  public:
   Glslang() {
@@ -64,7 +41,7 @@ class Glslang {
 
 std::string text_of(const std::filesystem::path& path) {
   std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);  // a folder has none
+  const std::uintmax_t size = std::filesystem::file_size(path, error);  // fails for a folder
   std::ifstream file(path, std::ios::binary);
   if (!error && !file) error.assign(errno, std::generic_category());
   if (error) {
@@ -76,16 +53,18 @@ std::string text_of(const std::filesystem::path& path) {
   return text;
 }
 
-// Files of one folder, each read once so that all kernels are made of the same text.
+// Resolves #include by the files of one folder. Each is read once, so that all kernels are compiled
+// from the same text even if a file is saved meanwhile.
 class Includer : public glslang::TShader::Includer {
  public:
   explicit Includer(const std::filesystem::path& folder) : folder_(folder) {}
 
-  // No exception may cross glslang, which names the line of an include that fails. One failure ends
-  // all: files that include themselves twice would double at every depth.
+  // Null is a failure, of which glslang reports the line; exceptions must not cross glslang. After
+  // a failure all further includes fail: a file that includes itself twice would otherwise double
+  // the work at every level.
   IncludeResult* includeLocal(const char* name, const char* /*includer*/,
                               std::size_t depth) override {
-    constexpr std::size_t deepest = 32;  // only files that include themselves get there
+    constexpr std::size_t deepest = 32;  // deeper only if files include each other in a circle
     failed_ = failed_ || depth > deepest;
     if (failed_) return nullptr;
     try {
@@ -110,8 +89,8 @@ class Includer : public glslang::TShader::Includer {
   bool failed_ = false;
 };
 
-// The first error of a log of lines like "ERROR: file:line: 'token' : what is wrong", as a
-// sentence. The linker names no file; `kernel` stands in.
+// The first error of glslang's log, which has lines like "ERROR: file:line: 'token' : what is
+// wrong", as a sentence. Errors of the linker name no file: they get that of the kernel.
 InputError first_error(std::string_view log, const std::filesystem::path& kernel) {
   constexpr std::string_view mark = "ERROR: ";
   while (!log.empty() && !log.starts_with(mark)) {
@@ -143,7 +122,7 @@ std::vector<uint32_t> compile(const KernelSource& source, const std::filesystem:
                      kVulkanDialect);
   shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_1);
   shader.setEnvTarget(glslang::EShTargetSpv,
-                      source.queries ? glslang::EShTargetSpv_1_4 : glslang::EShTargetSpv_1_3);
+                      source.ray_queries ? glslang::EShTargetSpv_1_4 : glslang::EShTargetSpv_1_3);
   if (!shader.parse(GetDefaultResources(), kDefaultVersion, false, kMessages, includer)) {
     throw first_error(shader.getInfoLog(), path);
   }
@@ -161,8 +140,9 @@ KernelCode compile_kernels(const std::filesystem::path& folder) {
   static const Glslang glslang;
   Includer includer(folder);
   KernelCode code;
-  for (const KernelSource& source : kSources) {
-    code.emplace(source.kernel, compile(source, folder, includer));
+  for (const KernelSource& source : kernel_sources()) {
+    if (source.interface != Interface::frame) continue;
+    code.emplace(source.name, compile(source, folder, includer));
   }
   return code;
 }

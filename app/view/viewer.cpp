@@ -52,7 +52,7 @@ Viewer::Viewer(const ViewOptions& options, std::vector<ScriptStep> script, Windo
       window_(window),
       device_(device),
       swapchain_(device, surface),
-      pass_(device, swapchain_.render_pass(), kScreenVertSpirv, kScreenFragSpirv,
+      pass_(device, swapchain_.render_pass(), spirv_of("screen_vert"), spirv_of("screen_frag"),
             screen_interface(), BINDING_FRAME, "screen"),
       layer_(instance, device, window, swapchain_.render_pass()),
       still_(device),

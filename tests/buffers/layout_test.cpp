@@ -17,7 +17,7 @@ namespace {
 using spirv_cross::Compiler;
 using Offsets = std::map<std::string, std::size_t>;
 
-Compiler reflect(std::span<const uint32_t> spirv = kTraceListSpirv) {
+Compiler reflect(std::span<const uint32_t> spirv = spirv_of("trace_list")) {
   return Compiler(std::vector<uint32_t>(spirv.begin(), spirv.end()));
 }
 
@@ -55,7 +55,7 @@ const spirv_cross::Resource& with_binding(
 }
 
 // What a kernel has bound there.
-Held bound_to(uint32_t binding, std::span<const uint32_t> spirv = kTraceListSpirv) {
+Held bound_to(uint32_t binding, std::span<const uint32_t> spirv = spirv_of("trace_list")) {
   const Compiler compiler = reflect(spirv);
   const auto resources = compiler.get_shader_resources();
   const auto& buffers = binding == BINDING_PARAMS || binding == BINDING_ADDRESSES
@@ -91,7 +91,7 @@ TEST(Layout, SubpatchBounds) {
 }
 
 TEST(Layout, ProjectedSubpatch) {
-  const Held held = bound_to(BINDING_PROJECTED, kProjectSubpatchesSpirv);
+  const Held held = bound_to(BINDING_PROJECTED, spirv_of("project_subpatches"));
   EXPECT_EQ(held.stride, sizeof(ProjectedSubpatch));
   EXPECT_EQ(held.offsets, (Offsets{{"box", offsetof(ProjectedSubpatch, box)},
                                    {"lines_x", offsetof(ProjectedSubpatch, lines_x)},
@@ -108,7 +108,7 @@ TEST(Layout, ProjectedSubpatch) {
 }
 
 TEST(Layout, BvhEntry) {
-  const Held held = bound_to(BINDING_BVH, kTraceBvhSpirv);
+  const Held held = bound_to(BINDING_BVH, spirv_of("trace_bvh"));
   EXPECT_EQ(held.stride, sizeof(BvhEntry));
   EXPECT_EQ(held.offsets, (Offsets{{"lo_x", offsetof(BvhEntry, lo_x)},
                                    {"lo_y", offsetof(BvhEntry, lo_y)},
@@ -121,7 +121,7 @@ TEST(Layout, BvhEntry) {
 }
 
 TEST(Layout, Addresses) {
-  const Held held = bound_to(BINDING_ADDRESSES, kTraceBvhAtSpirv);
+  const Held held = bound_to(BINDING_ADDRESSES, spirv_of("trace_bvh_at"));
   EXPECT_EQ(held.stride, sizeof(Addresses));
   EXPECT_EQ(held.offsets, (Offsets{{"triangles_low", offsetof(Addresses, triangles_low)},
                                    {"triangles_high", offsetof(Addresses, triangles_high)},
@@ -215,7 +215,7 @@ TEST(Layout, OutputsAndPushConstants) {
 }
 
 TEST(Layout, ScreenPushIsTheFragmentShaders) {
-  const Compiler compiler = reflect(kScreenFragSpirv);
+  const Compiler compiler = reflect(spirv_of("screen_frag"));
   const auto resources = compiler.get_shader_resources();
   ASSERT_EQ(resources.push_constant_buffers.size(), 1U);
   const Held push = held_by(compiler, resources.push_constant_buffers[0]);
@@ -239,11 +239,9 @@ TEST(Layout, ScreenPushIsTheFragmentShaders) {
 
 TEST(Layout, InterfaceIsTheKernels) {
   std::map<uint32_t, VkDescriptorType> in_kernels;
-  for (const auto& spirv :
-       {kTraceListSpirv, kProjectSubpatchesSpirv, kBinSubpatchesSpirv, kFillSkySpirv,
-        kTraceTilesSpirv, kTraceUndecidedSpirv, kTracePacketsSpirv, kTraceBvhSpirv,
-        kTracePacketsAtSpirv, kTraceBvhAtSpirv}) {
-    const Compiler kernel = reflect(spirv);
+  for (const KernelSource& source : kernel_sources()) {
+    if (source.interface != Interface::frame) continue;
+    const Compiler kernel = reflect(source.spirv);
     const auto held = kernel.get_shader_resources();
     for (const auto& buffer : held.uniform_buffers) {
       in_kernels[kernel.get_decoration(buffer.id, spv::DecorationBinding)] =

@@ -1,4 +1,5 @@
-// Accelerations change the time of a frame, not a bit of it.
+// Accelerations change the time of a frame and what is uploaded for it, but not a bit of the frame;
+// and their kernels are in the list of shaders/CMakeLists.txt.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -18,11 +19,11 @@ namespace {
 
 class Acceleration : public test::GpuTest {};
 
-// Those beside the list that the device has.
-std::vector<Accel> fast_ways() {
-  std::vector<Accel> ways{Accel::tiles, Accel::bvh};
-  if (test::validated_device().has_ray_query()) ways.push_back(Accel::rayquery);
-  return ways;
+// The accelerations, but for the list, that the device has.
+std::vector<Accel> fast_accels() {
+  std::vector<Accel> accels{Accel::tiles, Accel::bvh};
+  if (test::validated_device().has_ray_query()) accels.push_back(Accel::rayquery);
+  return accels;
 }
 
 Frame trace(const BakedScene& scene, const TraceSettings& settings, Accel accel,
@@ -43,7 +44,7 @@ void expect_equal(const Frame& a, const Frame& b, const std::string& what) {
   for (std::size_t i = 0; i < a.aovs.size(); ++i) {
     const PixelAovs& p = a.aovs[i];
     const PixelAovs& q = b.aovs[i];
-    // The work done is what may differ.
+    // The counts of work may differ.
     const bool same = p.normal_z == q.normal_z && p.geometric_u == q.geometric_u && p.v == q.v &&
                       p.triangle == q.triangle;
     if (!same) ++different;
@@ -56,7 +57,7 @@ void expect_all_equal(BakedScene scene, const TraceSettings& settings, const std
                       std::size_t buffer_limit = std::numeric_limits<std::size_t>::max()) {
   scene.bvh = build_bvh(scene);
   const Frame list = trace(scene, settings, Accel::list);
-  for (const Accel accel : fast_ways()) {
+  for (const Accel accel : fast_accels()) {
     expect_equal(list, trace(scene, settings, accel, buffer_limit), what + " " + accel_name(accel));
   }
 }
@@ -78,7 +79,7 @@ TEST_F(Acceleration, IsTheListToTheBit) {
                                         SurfaceChoice{SURFACE_PHONG, 0.65, SHELL_HEIGHT},
                                         SurfaceChoice{SURFACE_SPHERE, 0.0, SHELL_NORMAL}}) {
       const bool usual = choice.surface == SURFACE_PHONG && choice.shell == SHELL_NORMAL;
-      // With kinks, on the sphere surface.
+      // Its sphere surface is nonsmooth in places.
       const bool unusual = choice.surface == SURFACE_SPHERE && name == "teapot";
       if (!usual && !unusual && name != "sphere-20" && name != "cube") continue;
       const BakedScene scene = bake_with_subpatches(mesh, choice);
@@ -106,7 +107,7 @@ TEST_F(Acceleration, SeesWhatIsAroundAndBehindTheEye) {
   }
 }
 
-TEST_F(Acceleration, BearsManyPartsInOneTile) {
+TEST_F(Acceleration, HandlesManySubpatchesInOneTile) {
   const Mesh mesh = stress::sphere(4);
   const BakedScene scene = bake_with_subpatches(mesh, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
   // The whole model in a few tiles.
@@ -125,14 +126,14 @@ TEST_F(Acceleration, WorksInEveryBandOfAnImage) {
   expect_all_equal(scene, settings, "", limit);
 }
 
-TEST_F(Acceleration, OfTheDevicesOwnIsThereOrRefused) {
+TEST_F(Acceleration, RayQueriesAreThereOrRefused) {
   BakedScene scene =
       bake_with_subpatches(test::load_asset("sphere-20"), {SURFACE_PHONG, 0.65, SHELL_NORMAL});
   scene.bvh = build_bvh(scene);
   const KernelChoice choice{.solver = SOLVER_ROBUST, .accel = Accel::rayquery};
   if (test::validated_device().has_ray_query()) {
     const VulkanTracer tracer(test::validated_device(), scene, 8, 8, choice);
-    // Its structure counts, beside the boxes that it is made of.
+    // The bytes of the acceleration structure count; each of its boxes takes 24 bytes.
     EXPECT_GT(tracer.scene_bytes(), scene.triangles.size() * sizeof(Triangle) +
                                         scene.subpatches.size() * (sizeof(SubpatchBounds) + 24) +
                                         scene.bvh.size() * sizeof(BvhEntry));
@@ -141,7 +142,28 @@ TEST_F(Acceleration, OfTheDevicesOwnIsThereOrRefused) {
   }
 }
 
-// Buffers that may not be bound, here for a limit of less than the model takes.
+// Where the tree is not needed, a scene that has one takes no more memory than one that has none.
+TEST_F(Acceleration, UploadsTheTreeOnlyWhereItIsNeeded) {
+  const BakedScene without =
+      bake_with_subpatches(test::load_asset("sphere-80"), {SURFACE_PHONG, 0.65, SHELL_NORMAL});
+  BakedScene with = without;
+  with.bvh = build_bvh(with);
+  const std::size_t tree_bytes = with.bvh.size() * sizeof(BvhEntry);
+  const auto bytes = [](const BakedScene& scene, Accel accel, bool shadows) {
+    const KernelChoice choice{.solver = SOLVER_ROBUST, .accel = accel, .shadows = shadows};
+    return VulkanTracer(test::validated_device(), scene, 8, 8, choice).scene_bytes();
+  };
+  EXPECT_EQ(bytes(with, Accel::list, false), bytes(without, Accel::list, false));
+  EXPECT_EQ(bytes(with, Accel::list, true), bytes(without, Accel::list, false));
+  const std::size_t tiles_bytes = bytes(without, Accel::tiles, false);
+  EXPECT_EQ(bytes(with, Accel::tiles, false), tiles_bytes);
+  // Without the tree its binding has one entry.
+  EXPECT_EQ(bytes(with, Accel::tiles, true), tiles_bytes - sizeof(BvhEntry) + tree_bytes);
+  EXPECT_EQ(bytes(with, Accel::bvh, false),
+            bytes(without, Accel::list, false) - sizeof(BvhEntry) + tree_bytes);
+}
+
+// With a limit that is less than the model's buffers take, they cannot be bound.
 TEST_F(Acceleration, ReachesLargeBuffersByTheirAddresses) {
   BakedScene scene =
       bake_with_subpatches(test::load_asset("teapot"), {SURFACE_PHONG, 0.65, SHELL_NORMAL});

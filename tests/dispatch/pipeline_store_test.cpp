@@ -34,7 +34,7 @@ class Pipelines : public test::GpuTest {
   std::vector<std::byte> run() {
     const gpu::Device device(test::validated_instance(), "");
     const PipelineStore store(device, folder_.path());
-    const gpu::Kernel kernel(device, kCastRaysSpirv, cast_rays_interface(), {}, "kernel");
+    const gpu::Kernel kernel = make_kernel(device, "cast_rays", {});
     return device.pipeline_data();
   }
 

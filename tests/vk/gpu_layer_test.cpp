@@ -99,7 +99,7 @@ TEST_F(GpuLayer, OrdersWhatOneSubmitDoes) {
 
 TEST_F(GpuLayer, ChecksWhatADispatchIsGiven) {
   const Device& device = test::validated_device();
-  const Kernel kernel(device, kTraceListSpirv, frame_interface(), {}, "trace_list");
+  const Kernel kernel(device, spirv_of("trace_list"), frame_interface(), {}, "trace_list");
   const Buffer buffer(device, 1024, Memory::device, "scratch");
   EXPECT_THROW(DescriptorSet(device, kernel, {&buffer}), std::logic_error);
   const DescriptorSet bound(device, kernel,
