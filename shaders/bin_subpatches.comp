@@ -1,5 +1,6 @@
 #version 450
-// Appends every part to the lists of the band's tiles that may see it. x: parts; y: BIN_ROWS rows of tiles each.
+// Appends every subpatch to the lists of those tiles of the band that its projection may overlap. Invocation x looks at
+// subpatch x; workgroup row y looks at BIN_ROWS rows of tiles.
 #extension GL_GOOGLE_include_directive : require
 #include "language.h"
 #include "shared.h"
@@ -14,7 +15,7 @@ layout(std430, binding = BINDING_TILE_SUBPATCHES) writeonly restrict buffer Tile
 
 #include "overlaps_rect.glsl"
 
-// The row or column of tiles, of `count` from `first` on, in which an image coordinate lies; first + count if beyond.
+// The row or column of tiles in which an image coordinate in pixels lies, clamped to first <= i <= first + count.
 int tile_along(float x, int first, int count) {
   return int(clamp(floor(x / float(TILE_SIZE)), float(first), float(first + count)));
 }
@@ -22,25 +23,25 @@ int tile_along(float x, int first, int count) {
 void main() {
   uint subpatch = gl_GlobalInvocationID.x;
   if (subpatch >= params.subpatch_count || subpatches[subpatch].skip > 0u) return;
-  ProjectedSubpatch view = projected[subpatch];
+  ProjectedSubpatch projection = projected[subpatch];
   int columns = int(tiles_across(params.width));
   int band_rows = int(tiles_across(push.rows));
   int first_row = int(push.first_row / TILE_SIZE);
   int top = int(gl_WorkGroupID.y) * BIN_ROWS;
-  // Tiles are tested with half a pixel around them: more than the roundings of a position.
-  int left = tile_along(view.box.x - 0.5, 0, columns);
-  int right = min(tile_along(view.box.z + 0.5, 0, columns), columns - 1);
-  int row = tile_along(view.box.y - 0.5, first_row + top, BIN_ROWS);
-  int bottom = min(tile_along(view.box.w + 0.5, first_row + top, BIN_ROWS),
+  // Half a pixel is more than the rounding errors of a projected position.
+  int left = tile_along(projection.box.x - 0.5, 0, columns);
+  int right = min(tile_along(projection.box.z + 0.5, 0, columns), columns - 1);
+  int row = tile_along(projection.box.y - 0.5, first_row + top, BIN_ROWS);
+  int bottom = min(tile_along(projection.box.w + 0.5, first_row + top, BIN_ROWS),
                    first_row + min(top + BIN_ROWS, band_rows) - 1);
   vec2 half_size = vec2(0.5 * float(TILE_SIZE));
   int column = left;
   while (row <= bottom && left <= right) {
     vec2 middle = (vec2(column, row) + vec2(0.5)) * float(TILE_SIZE);
-    if (overlaps_rect(view, middle, half_size)) {
+    if (overlaps_rect(projection, middle, half_size)) {
       uint tile = uint((row - first_row) * columns + column);
-      uint place = atomicAdd(tile_counts[tile], 1u);
-      if (place < TILE_CAPACITY) tile_subpatches[tile * TILE_CAPACITY + place] = subpatch;
+      uint position_in_list = atomicAdd(tile_counts[tile], 1u);
+      if (position_in_list < TILE_CAPACITY) tile_subpatches[tile * TILE_CAPACITY + position_in_list] = subpatch;
     }
     ++column;
     if (column > right) {

@@ -1,20 +1,21 @@
-// The parts that a ray goes through: those in whose boxes it comes, found by the tree over them.
+// Candidates of a ray: the subpatches whose bounding boxes it meets, found by the scene's BVH. The items of its traversal
+// are entries of the BVH.
 
 bool no_candidates_left(PixelRay ray, uint item) { return item == BVH_END; }
 
 uint next_item(uint item) { return bvh[item].next; }
 
-// By how much the boxes are enlarged for a ray: some roundings of its point.
+// The length by which boxes are enlarged for a ray: several rounding errors of its points.
 float slack_of(PixelRay ray) { return BVH_SLACK * ray.frame.stretch * length3(ray.anchor); }
 
-// 1 / a, but for no infinity: that times 0 would be none of a slab's distances.
+// 1 / a, but finite: an infinity times a distance of 0 from a slab would be a NaN.
 vec3 inverse_of(vec3 a) {
   vec3 least = vec3(1e-18);
   return vec3(1.0) / mix(a, least, lessThan(abs(a), least));
 }
 
-// The next part to be met, at walk.item; NO_TRIANGLE if the tree, or the steps, ended before. Kay & Kajiya's slabs
-// (1986).
+// The next candidate, which is that of traversal.item on return; NO_TRIANGLE if there is none, or if no steps are left.
+// Boxes are tested by slabs (Kay & Kajiya 1986, "Ray tracing complex scenes").
 uint find_candidate(PixelRay ray, INOUT(Traversal) traversal) {
   vec3 inverse = inverse_of(ray.view);
   vec3 slack = vec3(slack_of(ray));

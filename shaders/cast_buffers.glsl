@@ -1,4 +1,4 @@
-// What the kernels that cast rays from a buffer are made for, and what they find bound.
+// Specialisation constants, buffers and push constants of the kernels that cast rays from a buffer.
 
 layout(constant_id = CONSTANT_SURFACE) const uint SURFACE = SURFACE_PHONG;
 layout(constant_id = CONSTANT_SHELL) const uint SHELL = SHELL_NORMAL;

@@ -1,5 +1,5 @@
 #version 450
-// Rays from a buffer, whatever they are aimed at, against those whose boxes a tree finds.
+// Casts rays from a buffer, of any origin and direction. Their candidates are found by the scene's BVH.
 #extension GL_GOOGLE_include_directive : require
 #define TRISECT_BVH
 #include "language.h"

@@ -1,4 +1,4 @@
-// A kernel that casts rays from a buffer: new ones, or what is left of paused ones.
+// The main function of kernels that cast rays from a buffer: new rays in the first pass, paused rays after it.
 
 void main() {
   uint index = gl_GlobalInvocationID.x;

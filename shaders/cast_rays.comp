@@ -1,5 +1,5 @@
 #version 450
-// Rays from a buffer, whatever they are aimed at, against every triangle.
+// Casts rays from a buffer, of any origin and direction, each against the whole list of subpatches or triangles.
 #extension GL_GOOGLE_include_directive : require
 #include "language.h"
 #include "shared.h"

@@ -1,5 +1,5 @@
 #version 450
-// Nothing but an image: the time of a frame that costs nothing to find.
+// Clears the image and does nothing else: measurements take its time as that of a frame without any tracing.
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
 

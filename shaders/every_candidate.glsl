@@ -1,4 +1,4 @@
-// The parts that a ray goes through: all of them.
+// Candidates of a ray: all subpatches whose bounding balls it meets.
 
 uint candidate_count(uint tile) { return params.subpatch_count; }
 

@@ -1,5 +1,5 @@
 #version 450
-// The sky where a tile of the band touches no part; the others are put in order for trace_tiles.comp.
+// Writes the sky to the tiles of the band whose lists are empty, and lists the other tiles for trace_tiles.comp.
 #extension GL_GOOGLE_include_directive : require
 #include "language.h"
 #include "shared.h"

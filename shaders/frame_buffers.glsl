@@ -1,5 +1,6 @@
-// What a frame's shaders are made for, and what they find bound. As OpenGL has no specialisation constants the
-// program defines their values ahead of this text; as it has no push constants they are a buffer.
+// Specialisation constants, push constants, parameters and scene of the shaders that make a frame. OpenGL has no
+// specialisation constants in GLSL: app/opengl/shader_head.cpp defines their values ahead of this text. It has no push
+// constants: a buffer takes their place.
 #ifdef TRISECT_OPENGL
 const uint SURFACE = VALUE_SURFACE;
 const uint SHELL = VALUE_SHELL;
@@ -25,8 +26,9 @@ layout(push_constant) uniform PushBlock { TilePush push; };
 layout(std140, binding = BINDING_PARAMS) uniform ParamsBlock { TraceParams params; };
 #include "scene_buffers.glsl"
 
-// A pixel of a tile: invocations next to each other see blocks of 4 x 2 pixels, then 8 x 2, 8 x 4.
+// The pixel of invocation i within its tile. Each 8 consecutive invocations are a block of 4 x 2 pixels, 16 of 8 x 2, 32 of
+// 8 x 4: the rays of a subgroup are close together whatever its size.
 uvec2 pixel_in_tile(uint i) { return uvec2((i & 3u) | ((i >> 1) & 4u), ((i >> 2) & 1u) | ((i >> 3) & 6u)); }
 
-// Tiles that so many pixels of a row or a column touch.
+// The number of tiles that cover so many pixels of a row or a column.
 uint tiles_across(uint pixels) { return (pixels + TILE_SIZE - 1u) / TILE_SIZE; }

@@ -1,13 +1,14 @@
-// One part for the rays of a subgroup that come near it, `here`: Newton's method alone. What it leaves open makes a ray
-// undecided.
-void intersect_quickly(Triangle tri, uint triangle, SubpatchBounds bounds, FramedPatch framed, uint subpatch, PixelRay ray, float tolerance,
-                  bool here, inout Traversal traversal, inout bool undecided) {
-  // No step is taken for a ray that passes it by.
-  bounds.cone.w = here ? bounds.cone.w : NO_CONE;
+// Intersects the rays of a subgroup with one subpatch by Newton's method alone. near: whether this invocation's ray is to be
+// intersected; the others take part in the control flow only. A ray that Newton's method cannot decide becomes undecided.
+void intersect_quickly(Triangle tri, uint triangle, SubpatchBounds bounds, FramedPatch framed, uint subpatch,
+                       PixelRay ray, float tolerance, bool near, inout Traversal traversal, inout bool undecided) {
+  // Without a cone Newton's method takes no step, so that a ray that is not near costs none.
+  bounds.cone.w = near ? bounds.cone.w : NO_CONE;
   precise float z;
   precise vec3 weights;
-  uint found = intersect_by_newton(scene_shape(), tri, bounds, framed, ray.view, tolerance, z, weights, traversal.counts.evaluations);
-  if (COUNTS && here) ++traversal.counts.candidates;
-  if (here && found == UNDECIDED) undecided = true;
-  if (here && found == FOUND_ROOT) keep_nearest(z, weights, triangle, subpatch, ray.nearest, traversal.hit);
+  uint found = intersect_by_newton(scene_shape(), tri, bounds, framed, ray.view, tolerance, z, weights,
+                                   traversal.counts.evaluations);
+  if (COUNTS && near) ++traversal.counts.candidates;
+  if (near && found == UNDECIDED) undecided = true;
+  if (near && found == FOUND_ROOT) keep_nearest(z, weights, triangle, subpatch, ray.nearest, traversal.hit);
 }

@@ -1,11 +1,11 @@
-// The way through a list of parts, which candidate_count and candidate_at tell: each whose ball the ray meets. Of a divided patch
-// the parts stand in a tree, depth first.
+// Traversal of a list of subpatches, given by candidate_count and candidate_at. The subpatches of a divided patch are a
+// tree in depth-first order: each inner entry's ball contains those of its descendants, and `skip` is their number.
 
 bool no_candidates_left(PixelRay ray, uint item) { return item >= candidate_count(ray.tile); }
 
 uint next_item(uint item) { return item + 1u; }
 
-// The next part to be met, at walk.item; NO_TRIANGLE if the list, or the steps, ended before.
+// The next candidate, which is that of traversal.item on return; NO_TRIANGLE if there is none, or if no steps are left.
 uint find_candidate(PixelRay ray, INOUT(Traversal) traversal) {
   uint count = candidate_count(ray.tile);
   uint subpatch = 0u;

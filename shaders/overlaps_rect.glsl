@@ -1,14 +1,15 @@
-// Whether a subpatch can be seen in a rectangle of the image.
+// Culling by the image: where the projection of a subpatch can be.
 
-// What an image position may be off by, in pixels: more than its roundings.
+// Margin around an image position, in pixels: more than its rounding errors.
 const real PIXEL_SLACK = real(0.02);
 
-// False if the subpatch is not seen in the rectangle with this middle and half this size, in pixels: it lies beside the
-// box, or wholly on the outer side of one of the lines.
-bool overlaps_rect(ProjectedSubpatch view, vec2 middle, vec2 half_size) {
-  bool in_box = view.box.x <= middle.x + half_size.x && view.box.z >= middle.x - half_size.x &&
-                view.box.y <= middle.y + half_size.y && view.box.w >= middle.y - half_size.y;
-  vec3 nearest = vec3(view.lines_x) * middle.x + vec3(view.lines_y) * middle.y -
-                 (abs(vec3(view.lines_x)) * half_size.x + abs(vec3(view.lines_y)) * half_size.y);
-  return in_box && nearest.x <= view.lines_at.x && nearest.y <= view.lines_at.y && nearest.z <= view.lines_at.z;
+// Whether the projection may overlap a rectangle of the image, given by its middle and half its size in pixels. False is
+// certain.
+bool overlaps_rect(ProjectedSubpatch projection, vec2 middle, vec2 half_size) {
+  bool in_box = projection.box.x <= middle.x + half_size.x && projection.box.z >= middle.x - half_size.x &&
+                projection.box.y <= middle.y + half_size.y && projection.box.w >= middle.y - half_size.y;
+  vec3 nearest = vec3(projection.lines_x) * middle.x + vec3(projection.lines_y) * middle.y -
+                 (abs(vec3(projection.lines_x)) * half_size.x + abs(vec3(projection.lines_y)) * half_size.y);
+  return in_box && nearest.x <= projection.lines_at.x && nearest.y <= projection.lines_at.y &&
+         nearest.z <= projection.lines_at.z;
 }

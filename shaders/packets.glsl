@@ -1,48 +1,48 @@
-// Packets of rays, those of a subgroup, go down the tree over the parts' boxes together.
+// Traversal of the scene's BVH by packets of rays: the rays of a subgroup traverse it together.
 //
 // A packet is tested against a box by interval arithmetic on its rays' origins and directions (Boulos, Wald & Shirley
-// 2006, "Geometric and arithmetic culling methods for entire ray packets"), each invocation with a child of its own:
-// of eight at least.
+// 2006, "Geometric and arithmetic culling methods for entire ray packets"). The eight children of a node are tested at
+// once, each by one lane of the subgroup, which therefore needs at least eight.
 
 const uint CHILDREN = 8u;
 const uint SUBPATCH_WORDS = 6u;
 const uint TRIANGLE_WORDS = 12u;
-// What an invocation loads of a part and its triangle in load_by_all, and where it looks what an entry is.
-const uint SHARE_BYTES = 48u;
+// Bytes that one lane reads in load_uniform, and of an entry of the BVH to see what it links to.
+const uint LANE_SHARE_BYTES = 48u;
 const uint LINK_BYTES = 4u;
-// A packet gives up after so many: llvmpipe ends all loops of a subgroup after 65535 iterations. Its rays then start
-// anew one by one.
+// A packet gives up after so many steps, because llvmpipe ends all loops of a subgroup after 65535 iterations. Its rays
+// then start over one by one, in trace_bvh.comp.
 const int PACKET_STEPS = 16000;
 
-// Bounds of a packet's rays. Axes along which they go backward are mirrored; along those of which that is not sure
-// they are `loose`: no slab is met nowhere.
+// Bounds of a packet's rays. Axes along which all directions are negative are mirrored, so that the directions are
+// positive there. Along an axis where the directions differ in sign or are near zero, the slab test is skipped.
 struct Packet {
-  vec3 flip;  // 1 or -1
-  bvec3 loose;
-  vec3 lo;  // of the origins, mirrored, the boxes' slack left out
+  vec3 flip;       // component k: -1 if axis k is mirrored, else 1
+  bvec3 skip_slab;
+  vec3 lo;  // bounds of the rays' anchors on mirrored axes, enlarged by the boxes' slack
   vec3 hi;
-  vec3 least_inverse;  // of the directions, mirrored
+  vec3 least_inverse;  // bounds of the reciprocals of the directions on mirrored axes
   vec3 most_inverse;
-  float begin;
-  uint octant;
+  float begin;  // the least distance along a ray at which one of them begins
+  uint octant;  // bit k is set if axis k is mirrored
 };
 
 vec3 subgroup_min(vec3 a) { return vec3(subgroupMin(a.x), subgroupMin(a.y), subgroupMin(a.z)); }
 
 vec3 subgroup_max(vec3 a) { return vec3(subgroupMax(a.x), subgroupMax(a.y), subgroupMax(a.z)); }
 
-// Of the rays that are awake.
-Packet packet_of(PixelRay ray, bool awake) {
+// The packet of the subgroup's rays. Those that are not active leave its bounds of the anchors alone.
+Packet packet_of(PixelRay ray, bool is_active) {
   vec3 least = subgroup_min(ray.view);
   vec3 most = subgroup_max(ray.view);
   vec3 slack = vec3(subgroupMax(slack_of(ray)));
-  vec3 lo = subgroup_min(awake ? ray.anchor : vec3(1e30)) - slack;
-  vec3 hi = subgroup_max(awake ? ray.anchor : vec3(-1e30)) + slack;
+  vec3 lo = subgroup_min(is_active ? ray.anchor : vec3(1e30)) - slack;
+  vec3 hi = subgroup_max(is_active ? ray.anchor : vec3(-1e30)) + slack;
   const vec3 steep = vec3(1e-6);
   bvec3 back = lessThan(most, -steep);
   Packet packet;
   packet.flip = mix(vec3(1.0), vec3(-1.0), back);
-  packet.loose = not(bvec3(uvec3(back) | uvec3(greaterThan(least, steep))));
+  packet.skip_slab = not(bvec3(uvec3(back) | uvec3(greaterThan(least, steep))));
   packet.lo = mix(lo, -hi, back);
   packet.hi = mix(hi, -lo, back);
   packet.least_inverse = vec3(1.0) / mix(most, -least, back);
@@ -52,125 +52,127 @@ Packet packet_of(PixelRay ray, bool awake) {
   return packet;
 }
 
-// Whether a ray of the packet may come into the box before `end`.
-bool comes_into(Packet packet, vec3 box_lo, vec3 box_hi, float end) {
+// Whether a ray of the packet may meet the box before the distance `end`; false is certain.
+bool may_meet_box(Packet packet, vec3 box_lo, vec3 box_hi, float end) {
   bvec3 back = lessThan(packet.flip, vec3(0.0));
   vec3 a = mix(box_lo, -box_hi, back) - packet.hi;
   vec3 b = mix(box_hi, -box_lo, back) - packet.lo;
   vec3 enter = a * mix(packet.most_inverse, packet.least_inverse, greaterThanEqual(a, vec3(0.0)));
   vec3 leave = b * mix(packet.least_inverse, packet.most_inverse, greaterThanEqual(b, vec3(0.0)));
-  enter = mix(enter, vec3(-1e30), packet.loose);
-  leave = mix(leave, vec3(1e30), packet.loose);
+  enter = mix(enter, vec3(-1e30), packet.skip_slab);
+  leave = mix(leave, vec3(1e30), packet.skip_slab);
   float first = max(max(enter.x, enter.y), max(enter.z, packet.begin));
   float last = min(min(leave.x, leave.y), min(leave.z, end));
   return first <= last + BVH_SLACK * (abs(first) + abs(last));
 }
 
-// The way of a packet down the tree: children of a node that are still to be seen, and those of the nodes above it.
-// Children are counted as the packet meets them, front to back: child k stands in entry k ^ octant.
-struct Descent {
-  uint node;  // its first entry
-  uint left;  // bit k: child k
-  int level;
-  int steps;  // that it may still take
-  uint bytes;  // that an invocation has read, of boxes and of what it shares with others of its subgroup
+// A packet's depth-first traversal of the BVH. Children are numbered in the order in which the packet meets them, front to
+// back: child k is entry k ^ octant of its node.
+struct PacketTraversal {
+  uint node;         // the current node's first entry
+  uint to_visit;     // bit k: the node's child k is met and not yet visited
+  int stack_height;  // of subgroup_stacks
+  int steps;         // left until the packet gives up
+  uint bytes;        // that this invocation has read, its share of what the subgroup loads together
 };
 
-// 256 times the number of a node above, and its children that are still to be seen, for each level and subgroup. Not
-// an array of the invocation's own: drivers make a ladder of branches of that.
-shared uint above[TILE_SIZE * TILE_SIZE / CHILDREN][BVH_LEVELS];
+// For each subgroup, a stack of the nodes above the current one that have children to visit: the node's number times 256,
+// plus its to_visit. In shared memory, because drivers turn a private array with a variable index into a ladder of branches.
+shared uint subgroup_stacks[TILE_SIZE * TILE_SIZE / CHILDREN][BVH_LEVELS];
 
+// Bit k: the packet may meet the node's child k before `end`. node: its first entry.
 uint children_met(Packet packet, uint node, float end) {
   uint k = gl_SubgroupInvocationID;
   BvhEntry entry = bvh[node + ((k & (CHILDREN - 1u)) ^ packet.octant)];
   bool met = k < CHILDREN && entry.link != BVH_EMPTY &&
-             comes_into(packet, vec3(entry.lo_x, entry.lo_y, entry.lo_z), vec3(entry.hi_x, entry.hi_y, entry.hi_z), end);
+             may_meet_box(packet, vec3(entry.lo_x, entry.lo_y, entry.lo_z), vec3(entry.hi_x, entry.hi_y, entry.hi_z), end);
   return subgroupBallot(met).x;
 }
 
-// From the root on.
-Descent descent_begun(Packet packet) {
-  Descent descent;
-  descent.node = 0u;
-  descent.left = children_met(packet, 0u, 1e30);
-  descent.level = 0;
-  descent.steps = PACKET_STEPS;
-  descent.bytes = BVH_ENTRY_BYTES;
-  return descent;
+// At the root.
+PacketTraversal begin_packet_traversal(Packet packet) {
+  PacketTraversal traversal;
+  traversal.node = 0u;
+  traversal.to_visit = children_met(packet, 0u, 1e30);
+  traversal.stack_height = 0;
+  traversal.steps = PACKET_STEPS;
+  traversal.bytes = BVH_ENTRY_BYTES;
+  return traversal;
 }
 
-// The next part that a ray of the packet comes near, NO_TRIANGLE if none is left, or no step. z: what the ray has met, in
-// its frame. here: whether it is this ray that comes near.
-uint next_part(Packet packet, PixelRay ray, float z, inout Descent descent, out bool here) {
+// The next subpatch whose bounding ball a ray of the packet meets before its nearest hit, at depth z in its frame;
+// NO_TRIANGLE if there is none, or if no steps are left. near: whether this invocation's ray meets the ball.
+uint next_packet_candidate(Packet packet, PixelRay ray, float z, inout PacketTraversal traversal, out bool near) {
   float end = subgroupMax(ray.frame.stretch * z);
   uint subpatch = NO_TRIANGLE;
-  here = false;
+  near = false;
   bool ended = false;
   do {
-    bool up = descent.left == 0u;
-    --descent.steps;
-    ended = (up && descent.level == 0) || descent.steps <= 0;
+    bool up = traversal.to_visit == 0u;
+    --traversal.steps;
+    ended = (up && traversal.stack_height == 0) || traversal.steps <= 0;
     if (up && !ended) {
-      --descent.level;
-      uint packed = above[gl_SubgroupID][descent.level];
-      descent.node = (packed >> CHILDREN) * CHILDREN;
-      descent.left = packed & ((1u << CHILDREN) - 1u);
+      --traversal.stack_height;
+      uint top = subgroup_stacks[gl_SubgroupID][traversal.stack_height];
+      traversal.node = (top >> CHILDREN) * CHILDREN;
+      traversal.to_visit = top & ((1u << CHILDREN) - 1u);
     }
     if (!ended) {
-      uint k = uint(findLSB(descent.left));
-      descent.left &= descent.left - 1u;
-      uint link = bvh[descent.node + (k ^ packet.octant)].link;
+      uint k = uint(findLSB(traversal.to_visit));
+      traversal.to_visit &= traversal.to_visit - 1u;
+      uint link = bvh[traversal.node + (k ^ packet.octant)].link;
       if (link >= BVH_LEAF) {
-        if (COUNTS) descent.bytes += LINK_BYTES + BALL_BYTES;
-        here = !misses_ball(ray, subpatch_words[(link - BVH_LEAF) * SUBPATCH_WORDS], z);
-        // Here and not by the caller: llvmpipe goes through a branch that no ray takes.
-        if (subgroupAny(here)) {
+        if (COUNTS) traversal.bytes += LINK_BYTES + BALL_BYTES;
+        near = !misses_ball(ray, subpatch_words[(link - BVH_LEAF) * SUBPATCH_WORDS], z);
+        // Decided in this loop and not by the caller, because llvmpipe executes branches that no invocation takes.
+        if (subgroupAny(near)) {
           subpatch = link - BVH_LEAF;
-          if (COUNTS) descent.bytes += SHARE_BYTES;
+          if (COUNTS) traversal.bytes += LANE_SHARE_BYTES;
         }
       } else {
-        if (descent.left != 0u) {
-          above[gl_SubgroupID][descent.level] = (descent.node / CHILDREN << CHILDREN) + descent.left;
-          ++descent.level;
+        if (traversal.to_visit != 0u) {
+          subgroup_stacks[gl_SubgroupID][traversal.stack_height] =
+              (traversal.node / CHILDREN << CHILDREN) + traversal.to_visit;
+          ++traversal.stack_height;
         }
-        descent.node = link;
-        descent.left = children_met(packet, link, end);
-        if (COUNTS) descent.bytes += LINK_BYTES + BVH_ENTRY_BYTES;
+        traversal.node = link;
+        traversal.to_visit = children_met(packet, link, end);
+        if (COUNTS) traversal.bytes += LINK_BYTES + BVH_ENTRY_BYTES;
       }
     }
   } while (subpatch == NO_TRIANGLE && !ended);
-  descent.steps -= VISIT_STEPS;
+  traversal.steps -= VISIT_STEPS;
   return subpatch;
 }
 
-// The part and its triangle, for all invocations of a subgroup: each loads a word, which the others get from it, as
-// in trace_tiles.comp.
-void load_by_all(uint subpatch, out SubpatchBounds bounds, out Triangle tri) {
+// The bounds and the triangle of a subpatch that is the same for all invocations of a subgroup. Each lane loads other vec4s
+// and broadcasts them, for the reason given in trace_tiles.comp.
+void load_uniform(uint subpatch, out SubpatchBounds bounds, out Triangle tri) {
   uint lane = gl_SubgroupInvocationID;
-  vec4 word = subpatch_words[subpatch * SUBPATCH_WORDS + min(lane, SUBPATCH_WORDS - 1u)];
-  bounds.ball = subgroupBroadcast(word, 0);
-  bounds.sub_triangle = subgroupBroadcast(word, 1);
-  bounds.corner = subgroupBroadcast(word, 2);
-  bounds.edge = subgroupBroadcast(word, 3);
-  bounds.cone = subgroupBroadcast(word, 4);
-  vec4 rest = subgroupBroadcast(word, 5);
+  vec4 loaded = subpatch_words[subpatch * SUBPATCH_WORDS + min(lane, SUBPATCH_WORDS - 1u)];
+  bounds.ball = subgroupBroadcast(loaded, 0);
+  bounds.sub_triangle = subgroupBroadcast(loaded, 1);
+  bounds.corner = subgroupBroadcast(loaded, 2);
+  bounds.edge = subgroupBroadcast(loaded, 3);
+  bounds.cone = subgroupBroadcast(loaded, 4);
+  vec4 rest = subgroupBroadcast(loaded, 5);
   bounds.triangle = floatBitsToUint(rest.x);
   bounds.is_flat = floatBitsToUint(rest.y);
   bounds.gradient_lipschitz = rest.z;
   bounds.skip = 0u;
   uint base = bounds.triangle * TRIANGLE_WORDS;
-  word = triangle_words[base + (lane & 7u)];
-  tri.Position[0] = subgroupBroadcast(word, 0);
-  tri.Position[1] = subgroupBroadcast(word, 1);
-  tri.Position[2] = subgroupBroadcast(word, 2);
-  tri.Normal[0] = subgroupBroadcast(word, 3);
-  tri.Normal[1] = subgroupBroadcast(word, 4);
-  tri.Normal[2] = subgroupBroadcast(word, 5);
-  tri.TriNormal = subgroupBroadcast(word, 6);
-  tri.NormDot = subgroupBroadcast(word, 7);
-  word = triangle_words[base + 8u + (lane & 3u)];
-  tri.Domain = subgroupBroadcast(word, 0);
-  tri.VertexData[0] = subgroupBroadcast(word, 1);
-  tri.VertexData[1] = subgroupBroadcast(word, 2);
-  tri.VertexData[2] = subgroupBroadcast(word, 3);
+  loaded = triangle_words[base + (lane & 7u)];
+  tri.Position[0] = subgroupBroadcast(loaded, 0);
+  tri.Position[1] = subgroupBroadcast(loaded, 1);
+  tri.Position[2] = subgroupBroadcast(loaded, 2);
+  tri.Normal[0] = subgroupBroadcast(loaded, 3);
+  tri.Normal[1] = subgroupBroadcast(loaded, 4);
+  tri.Normal[2] = subgroupBroadcast(loaded, 5);
+  tri.TriNormal = subgroupBroadcast(loaded, 6);
+  tri.NormDot = subgroupBroadcast(loaded, 7);
+  loaded = triangle_words[base + 8u + (lane & 3u)];
+  tri.Domain = subgroupBroadcast(loaded, 0);
+  tri.VertexData[0] = subgroupBroadcast(loaded, 1);
+  tri.VertexData[1] = subgroupBroadcast(loaded, 2);
+  tri.VertexData[2] = subgroupBroadcast(loaded, 3);
 }

@@ -1,5 +1,5 @@
 #version 450
-// Writes what the frame's camera sees of every part.
+// Projects every subpatch for the frame's camera.
 #extension GL_GOOGLE_include_directive : require
 #include "language.h"
 #include "shared.h"
@@ -19,7 +19,7 @@ layout(std430, binding = BINDING_PROJECTED) writeonly restrict buffer ProjectedB
 void main() {
   uint subpatch = gl_GlobalInvocationID.x;
   if (subpatch >= params.subpatch_count) return;
-  precise ProjectedSubpatch view = project_subpatch(subpatch);
-  if (BALLS) bound_by_ball(subpatches[subpatch].ball, view);
-  projected[subpatch] = view;
+  precise ProjectedSubpatch projection = project_subpatch(subpatch);
+  if (BALLS) bound_by_ball(subpatches[subpatch].ball, projection);
+  projected[subpatch] = projection;
 }

@@ -1,9 +1,10 @@
-// Rays that pause.
+// The queue of rays that paused: their traversals are stored in it and resumed by the next submit. It has two halves, of
+// which one is read while the other is filled (app/dispatch/ray_queue.h).
 
 layout(std430, binding = BINDING_QUEUE) restrict buffer QueueBlock { PausedRay paused[]; };
 layout(std430, binding = BINDING_QUEUED) restrict buffer QueuedBlock { QueueState state; };
 
-// The walk that paused at a place of the queue.
+// The traversal that is stored at a place of the queue, with so many steps until it pauses again.
 Traversal resumed_traversal(uint place, int steps) {
   PausedRay ray = paused[place];
   Traversal traversal;
@@ -20,6 +21,7 @@ Traversal resumed_traversal(uint place, int steps) {
   return traversal;
 }
 
+// Stores a traversal at a place of the queue. ray: as in PausedRay.
 void pause(uint place, uint ray, Traversal traversal) {
   paused[place].hit = vec4(traversal.hit.weights, traversal.hit.z);
   paused[place].triangle = traversal.hit.triangle;
@@ -31,10 +33,10 @@ void pause(uint place, uint ray, Traversal traversal) {
   paused[place].candidates = traversal.counts.candidates;
 }
 
-// At the next place of the half that is filled.
+// Stores a traversal at the next place of the half that is being filled.
 void enqueue(uint ray, Traversal traversal) { pause(push.queue.to + atomicAdd(state.queued, 1u), ray, traversal); }
 
-// Adds what an invocation has read to what all of them have.
+// Adds the bytes that this invocation has read to the total, a 64-bit number in two words.
 void count_bytes(Traversal traversal) {
   if (!COUNTS) return;
   uint before = atomicAdd(state.bytes_low, traversal.counts.bytes);

@@ -1,23 +1,24 @@
-// The rays: a pixel's, and those that are cast one by one. Reads params.
+// Camera rays, and rays that are cast one by one. Reads params.
 
-// A pixel's ray. Distances along it count from its near point for the bisection, as in the thesis; the robust solver
-// goes by the third coordinate of a frame near the scene's centre.
+// A ray with all that the two solvers need of it. Positions are in world units from the scene's origin. Bisection measures
+// distances along the ray from its near point, as in the thesis; the robust solver uses z, the third coordinate in a frame
+// near the scene's centre.
 struct PixelRay {
-  vec3 near_point;
-  vec3 view;
-  real near_distance;  // from the eye
-  real far_depth;      // from the near point; the robust solver needs no end
-  uint tile;       // of its band
+  vec3 near_point;     // on the near plane
+  vec3 view;           // unit direction
+  real near_distance;  // of the near point from the eye
+  real far_depth;      // distance of the far plane from the near point; the robust solver has no far end
+  uint tile;           // of the ray's pixel, counted from the first tile of the band
   RayFrame frame;
-  real nearest;  // the ray begins there: z in the frame
+  real nearest;  // z at which the ray begins
   vec3 anchor;   // the ray's point at z = 0
-  // The anchor's distance from the eye in two parts, of the axis and what the ray has more: added last, they
-  // round once.
+  // The anchor's distance from the eye is axis + beyond_axis: the distance along the camera's axis, and what the slanted ray
+  // has more. Kept apart, so that a hit's distance is rounded once, when the terms are added.
   real axis;
   real beyond_axis;
 };
 
-// The frame of a ray that passes the camera's at depth 0 here.
+// The frame of the camera ray whose point at z = 0 has the x and y `across` in the camera's frame.
 RayFrame camera_frame(vec2 across) {
   EXACT RayFrame frame;
   frame.anchor = vec3(params.anchor);
@@ -30,7 +31,7 @@ RayFrame camera_frame(vec2 across) {
   return frame;
 }
 
-// The ray through a point of the near plane, given from the eye, that passes the camera's frame at depth 0 here.
+// The camera ray through a point of the near plane, given relative to the eye. across: as for camera_frame.
 PixelRay ray_through(vec3 to_near, vec2 across) {
   PixelRay ray;
   ray.tile = 0u;
@@ -48,6 +49,7 @@ PixelRay ray_through(vec3 to_near, vec2 across) {
   return ray;
 }
 
+// The camera ray through the centre of a pixel.
 PixelRay pixel_ray(uvec2 pixel) {
   real x = real(pixel.x) + real(0.5);
   real y = real(pixel.y) + real(0.5);
@@ -57,26 +59,28 @@ PixelRay pixel_ray(uvec2 pixel) {
   return ray_through(to_near, across);
 }
 
-// Whether the ray passes the ball by, or has met something before it, at z in its frame.
+// Whether the ray misses the ball, or its nearest hit, at z in its frame, lies before it. False if that is not certain.
 bool misses_ball(PixelRay ray, vec4 ball, real z) {
   vec3 center = vec3(ball) - ray.anchor;
   real along = dot3(center, ray.view);
   real size = dot3(center, center);
-  // The distance of the centre from the ray against the radius; the roundings of `size` may add to it.
+  // The first line compares the squared distance of the centre from the ray with the squared radius, with a margin for the
+  // rounding errors of `size`.
   return size - along * along > ball.w * ball.w + real(5e-7) * size ||
          along + ball.w < ray.frame.stretch * ray.nearest ||
          along - ball.w > ray.frame.stretch * z + real(1e-6) * (ball.w + abs(along));
 }
 
-PixelRay ray_of_cast(CastRay asked) {
+// A ray with a frame of its own.
+PixelRay ray_of_cast(CastRay cast_ray) {
   PixelRay ray;
   ray.tile = 0u;
-  ray.near_point = vec3(asked.anchor) + vec3(asked.direction) * asked.anchor.w;
-  ray.view = vec3(asked.direction);
-  ray.anchor = vec3(asked.anchor);
+  ray.near_point = vec3(cast_ray.anchor) + vec3(cast_ray.direction) * cast_ray.anchor.w;
+  ray.view = vec3(cast_ray.direction);
+  ray.anchor = vec3(cast_ray.anchor);
   ray.frame = ray_frame(ray.anchor, ray.view);
-  ray.nearest = asked.anchor.w;
-  ray.near_distance = asked.anchor.w;
+  ray.nearest = cast_ray.anchor.w;
+  ray.near_distance = cast_ray.anchor.w;
   ray.far_depth = real(1e30);
   ray.axis = real(0.0);
   ray.beyond_axis = real(0.0);

@@ -1,5 +1,5 @@
-// The scene: triangles, cages and, for kernels that go by it, the tree. With TRISECT_ADDRESSES the kernel reaches them by
-// their addresses, which no limit on a binding's size holds for; triangles[i] and the like mean the same.
+// The scene: triangles, subpatch bounds and, with TRISECT_BVH, the BVH. With TRISECT_ADDRESSES the kernel reaches them by
+// device addresses, which have no limit of size as bindings have; triangles[i] and so on are written alike in both cases.
 #ifdef TRISECT_ADDRESSES
 layout(std140, binding = BINDING_ADDRESSES) uniform AddressesBlock { Addresses addresses; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer TrianglesAt { Triangle items[]; };
@@ -15,7 +15,7 @@ layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Wo
 layout(std430, binding = BINDING_TRIANGLES) readonly restrict buffer TrianglesBlock { Triangle triangles[]; };
 layout(std430, binding = BINDING_SUBPATCHES) readonly restrict buffer SubpatchesBlock { SubpatchBounds subpatches[]; };
 #ifdef TRISECT_BVH
-// The same by words, and the tree.
+// Triangles and bounds once more, as arrays of vec4; and the BVH.
 layout(std430, binding = BINDING_TRIANGLES) readonly restrict buffer TriangleWordsBlock { vec4 triangle_words[]; };
 layout(std430, binding = BINDING_SUBPATCHES) readonly restrict buffer SubpatchWordsBlock { vec4 subpatch_words[]; };
 layout(std430, binding = BINDING_BVH) readonly restrict buffer BvhBlock { BvhEntry bvh[]; };

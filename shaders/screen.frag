@@ -8,7 +8,8 @@ layout(push_constant) uniform PushBlock { ScreenPush push; };
 layout(std430, binding = BINDING_COLOR) readonly restrict buffer ColorBlock { vec4 colors[]; };
 layout(std430, binding = BINDING_AOVS) readonly restrict buffer AovsBlock { PixelAovs pixels[]; };
 
-// The colours again, in its upper left corner, if the frame is no larger than the window.
+// The colours once more, in the texture's upper left corner, if the frame is no larger than the window: a texture
+// interpolates faster than reads of the buffer.
 layout(binding = BINDING_FRAME) uniform sampler2D texture_of_frame;
 
 layout(location = 0) out vec4 shown;
@@ -25,7 +26,7 @@ vec3 srgb_from_linear(vec3 x) {
   return mix(x * 12.92, 1.055 * pow(x, vec3(1.0 / 2.4)) - 0.055, greaterThan(x, vec3(0.0031308)));
 }
 
-// Dark blue, blue, green, yellow, red.
+// A colour scale for 0 <= t <= 1: dark blue, blue, green, yellow, red.
 vec3 heat(float t) {
   vec3 low = mix(vec3(0.05, 0.05, 0.3), vec3(0.1, 0.45, 0.9), clamp(4.0 * t, 0.0, 1.0));
   vec3 middle = mix(low, vec3(0.2, 0.75, 0.3), clamp(4.0 * t - 1.0, 0.0, 1.0));
@@ -35,8 +36,8 @@ vec3 heat(float t) {
 
 float on_scale(float x) { return clamp((x - push.low) / max(push.high - push.low, 1e-30), 0.0, 1.0); }
 
-// A colour for a number, far from those of its neighbours: steps of the golden ratio around the circle of hues, of
-// another irrational in brightness.
+// A colour for a number, such that near numbers have distinct colours: the hue advances by the golden ratio, the brightness
+// by another irrational number.
 vec3 color_of(uint number) {
   float hue = fract(float(number) * 0.6180339887);
   float brightness = 0.55 + 0.45 * fract(float(number) * 0.7548776662);
@@ -44,7 +45,8 @@ vec3 color_of(uint number) {
   return brightness * mix(vec3(1.0), circle, 0.7);
 }
 
-// The outputs that are no colours are those of one pixel of the frame: a mean of them says nothing.
+// The colour that shows an output of one pixel of the frame. Outputs other than colours are never averaged over pixels: the
+// mean of normals or patch numbers has no meaning.
 vec3 output_of(uint index) {
   if (push.shown == SHOWN_ERROR) {
     float error = colors[index].x;
@@ -63,7 +65,7 @@ vec3 output_of(uint index) {
   return vec3(pixel.geometric_u.w, pixel.v, 1.0 - pixel.geometric_u.w - pixel.v);
 }
 
-// Of `across` x `across` pixels of the frame, in linear light.
+// The mean of `across` x `across` pixels of the frame from `first` on, computed in linear light.
 vec3 mean_color(uvec2 first, uint across) {
   vec3 sum = vec3(0.0);
   for (uint row = 0u; row < across; ++row) {
@@ -83,10 +85,11 @@ void main() {
   } else if (across > 1u) {
     shown = vec4(mean_color(uvec2(gl_FragCoord.xy) * across, across), 1.0);
   } else if (push.frame_width == push.width) {
-    // As it is.
+    // Frame and window have the same size: no interpolation.
     shown = texelFetch(texture_of_frame, ivec2(gl_FragCoord.xy), 0);
   } else {
-    // Not beyond the middles of the frame's outermost pixels: what is there in the texture is no part of it.
+    // The texture may be larger than the frame: clamping to the centres of the frame's outermost pixels keeps what lies
+    // beyond them out of the interpolation.
     vec2 within = clamp(position, vec2(0.5), frame - 0.5);
     shown = texture(texture_of_frame, within / vec2(textureSize(texture_of_frame, 0)));
   }

@@ -1,15 +1,15 @@
-// Shadow rays: from what a pixel's ray has met toward the light. Reads params and triangles.
+// Shadow rays: from the hit of a pixel's camera ray toward the light. Reads params and triangles.
 
-// The geometric normal of what was met, on the side from which it was seen.
-vec3 normal_seen(PixelAovs met, vec3 view) { return facing(vec3(met.geometric_u), view); }
+// The geometric normal at the hit, on the side that the camera ray hit.
+vec3 visible_normal(PixelAovs hit, vec3 view) { return facing(vec3(hit.geometric_u), view); }
 
-// One of a pixel whose ray has met nothing starts anywhere.
-PixelRay shadow_ray(PixelAovs met, vec3 view) {
-  real u = met.geometric_u.w;
+// The shadow ray of a pixel. If its camera ray hit nothing, any ray is good: its traversal ends before it begins.
+PixelRay shadow_ray(PixelAovs hit, vec3 view) {
+  real u = hit.geometric_u.w;
   vec3 start = vec3(0.0);
-  if (met.triangle != NO_TRIANGLE) {
-    start = shadow_ray_origin(scene_shape(), triangles[met.triangle], vec3(real(1.0) - u - met.v, u, met.v),
-                      normal_seen(met, view));
+  if (hit.triangle != NO_TRIANGLE) {
+    start = shadow_ray_origin(scene_shape(), triangles[hit.triangle], vec3(real(1.0) - u - hit.v, u, hit.v),
+                      visible_normal(hit, view));
   }
   CastRay ray;
   ray.anchor = vec4(start, 0.0);
@@ -17,17 +17,17 @@ PixelRay shadow_ray(PixelAovs met, vec3 view) {
   return ray_of_cast(ray);
 }
 
-// Its walk. Where nothing was met, and where the surface itself turns away from the light, it is through before it
-// begins.
-Traversal begin_shadow_traversal(PixelAovs met, vec3 view, int steps) {
+// The shadow ray's traversal. It is ended at once if the camera ray hit nothing, where no shadow can fall, or if the surface
+// faces away from the light, which is a shadow without any tracing.
+Traversal begin_shadow_traversal(PixelAovs hit, vec3 view, int steps) {
   Traversal traversal = begin_traversal(steps);
-  bool lit = met.triangle != NO_TRIANGLE && dot3(normal_seen(met, view), vec3(params.light)) > real(0.0);
+  bool lit = hit.triangle != NO_TRIANGLE && dot3(visible_normal(hit, view), vec3(params.light)) > real(0.0);
   if (!lit) {
     traversal.hit.z = TRAVERSAL_ENDED;
-    traversal.hit.triangle = met.triangle;
+    traversal.hit.triangle = hit.triangle;
   }
   return traversal;
 }
 
-// What a pixel in shadow shows; others stay as they are.
+// The colour of a pixel in shadow; lit pixels keep theirs.
 vec4 shadow_color() { return vec4(vec3(AMBIENT), 1.0); }

@@ -1,5 +1,5 @@
 #version 450
-// What is behind everything.
+// The background of a rasterised frame: the sky.
 #extension GL_GOOGLE_include_directive : require
 #include "language.h"
 #include "shared.h"

@@ -1,4 +1,4 @@
-// All that a kernel needs before its buffers and constants.
+// What a kernel includes before its buffers and constants: the surfaces, the solvers and the shading.
 #include "shape.glsl"
 #include "solver_types.glsl"
 #include "polar_angle.glsl"

@@ -1,5 +1,5 @@
 #version 450
-// A pixel of a flat triangle, shaded as what a ray has met there.
+// Shades a pixel of a tessellated patch as if a ray had hit the curved patch at the interpolated weights.
 #extension GL_GOOGLE_include_directive : require
 #include "language.h"
 #include "shared.h"

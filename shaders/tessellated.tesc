@@ -1,5 +1,5 @@
 #version 450
-// Every triangle, a patch of one vertex, is divided alike.
+// A base triangle is a patch of one vertex; all are tessellated at the same level.
 layout(vertices = 1) out;
 
 uniform float level;

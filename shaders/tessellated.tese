@@ -1,5 +1,5 @@
 #version 450
-// The surface at the corners of the flat triangles that it is divided into: the standard practice of rasterisers.
+// Evaluates the surface at the vertices of the tessellation, as rasterisers usually draw curved triangles.
 #extension GL_GOOGLE_include_directive : require
 #include "language.h"
 #include "shared.h"
@@ -8,12 +8,12 @@
 
 layout(triangles, equal_spacing, ccw) in;
 
-uniform mat4 camera;  // view and projection of points relative to the eye
-uniform uint first;   // triangle of the draw
+uniform mat4 camera;  // view-projection matrix for points relative to the eye
+uniform uint first;   // index of the draw's first triangle
 
 out vec3 weights;
 out vec3 from_eye;
-// Mesa counts gl_PrimitiveID anew in fragment shaders.
+// In fragment shaders Mesa's gl_PrimitiveID counts the tessellated triangles, so the index is passed on.
 flat out uint triangle;
 
 #include "rays.glsl"

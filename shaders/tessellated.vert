@@ -1,3 +1,3 @@
 #version 450
-// Nothing: tessellated.tese knows its triangle by number.
+// Has nothing to do: tessellated.tese reads the triangle by its index.
 void main() {}

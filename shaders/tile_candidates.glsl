@@ -1,9 +1,12 @@
-// The parts that a ray goes through: those that its tile of the image touches.
+// Candidates of a ray: the subpatches in the list of its tile whose bounding balls it meets. If more subpatches overlap the
+// tile than its list can hold, all subpatches of the scene are tested instead.
 
 layout(std430, binding = BINDING_TILE_COUNTS) readonly restrict buffer TileCountsBlock { uint tile_counts[]; };
-layout(std430, binding = BINDING_TILE_SUBPATCHES) readonly restrict buffer TileSubpatchesBlock { uint tile_subpatches[]; };
+layout(std430, binding = BINDING_TILE_SUBPATCHES) readonly restrict buffer TileSubpatchesBlock {
+  uint tile_subpatches[];
+};
 
-// Whether more parts touch the tile than its list holds.
+// Whether more subpatches overlap the tile than its list can hold.
 bool is_full(uint tile) { return tile_counts[tile] > TILE_CAPACITY; }
 
 uint candidate_count(uint tile) { return is_full(tile) ? params.subpatch_count : tile_counts[tile]; }

@@ -1,6 +1,6 @@
-// One ray's way through the patches, and its outputs. Which patches those are say every_part.glsl, tile_subpatches.glsl or
-// bvh_parts.glsl: one of them is included ahead. Reads params, triangles and cages; SURFACE, SHELL, SOLVER, AOVS, COUNTS,
-// DIVIDED, MAY_BE_NONSMOOTH and SHADOWS are constants.
+// Traversal of the scene by one ray, and the ray's outputs. The candidates come from every_candidate.glsl,
+// tile_candidates.glsl or bvh_candidates.glsl, of which one is included ahead. Reads params, triangles and subpatches;
+// SURFACE, SHELL, SOLVER, AOVS, COUNTS, DIVIDED, MAY_BE_NONSMOOTH and SHADOWS are constants.
 
 Shape scene_shape() {
   Shape shape;
@@ -10,13 +10,13 @@ Shape scene_shape() {
   return shape;
 }
 
-// Iterations of the loops of traverse_bisect in one pass.
+// Iterations of all loops of traverse_bisect in one pass: fewer than the 65535 that llvmpipe allows.
 const uint BISECT_STEPS = 65000u;
 
-// Of the three corners of a triangle.
+// Bytes of the three corners of a triangle.
 const uint CORNERS_BYTES = 48u;
 
-// A walk through nothing yet.
+// A traversal at its beginning. steps: until the ray pauses.
 Traversal begin_traversal(int steps) {
   Traversal traversal;
   traversal.hit.z = NO_HIT_YET;
@@ -32,7 +32,7 @@ Traversal begin_traversal(int steps) {
   return traversal;
 }
 
-// Whatever is in the way makes a shadow.
+// Ends the traversal of a shadow ray at its first hit, whichever it is.
 void end_in_shadow(INOUT(Traversal) traversal) {
   if (!SHADOWS || traversal.hit.triangle == NO_TRIANGLE) return;
   traversal.hit.z = TRAVERSAL_ENDED;
@@ -44,12 +44,13 @@ bool is_finished(PixelRay ray, Traversal traversal) {
   return SOLVER == SOLVER_ROBUST ? no_candidates_left(ray, traversal.item) : traversal.item >= params.triangle_count;
 }
 
-// The thesis's loop. hit.z counts from the near point. All rays take the same triangles at the same time, as many
-// in each pass as their loops' iterations allow: drivers load faster what does not differ from ray to ray.
+// The thesis's loop over all triangles. hit.z is the distance from the near point. All rays take the same triangles at the
+// same time, because drivers load what is the same for all invocations faster: in each pass, as many triangles as the
+// iterations of a pass allow.
 void traverse_bisect(PixelRay ray, uint pass, INOUT(Traversal) traversal) {
-  uint share = BISECT_STEPS / (params.rank + 4u);
-  uint end = min((pass + 1u) * share, params.triangle_count);
-  for (uint t = pass * share; t < end; ++t) {
+  uint triangles_per_pass = BISECT_STEPS / (params.rank + 4u);
+  uint end = min((pass + 1u) * triangles_per_pass, params.triangle_count);
+  for (uint t = pass * triangles_per_pass; t < end; ++t) {
     real cdepth = min(traversal.hit.z, ray.far_depth);
     real depth;
     vec3 weights;
@@ -76,17 +77,18 @@ void traverse_bisect(PixelRay ray, uint pass, INOUT(Traversal) traversal) {
   traversal.item = end;
 }
 
-// The parts that the ray comes near, until none is left. hit.z is in the ray's frame.
+// Intersects the ray with its candidates, until none or no steps are left. hit.z is in the ray's frame.
 void traverse_robust(PixelRay ray, INOUT(Traversal) traversal) {
   while (!is_finished(ray, traversal) && traversal.steps > 0) {
-    // Parts that the ray passes by are passed in a loop of their own: a loop that holds the search below would go
-    // through all of it, masked, for each of them.
+    // find_candidate skips what the ray misses in a loop of its own. In one loop together with the intersection, each
+    // subpatch that this ray misses would cost the time of an intersection, masked out, whenever another ray of the
+    // subgroup executes one.
     uint subpatch = find_candidate(ray, traversal);
     if (subpatch != NO_TRIANGLE) {
       if (COUNTS && traversal.path == WHOLE) ++traversal.counts.candidates;
       if (COUNTS) traversal.counts.bytes += TRIANGLE_BYTES + SUBPATCH_BYTES;
-      intersect_subpatch(scene_shape(), MAY_BE_NONSMOOTH, triangles[subpatches[subpatch].triangle], subpatches[subpatch], subpatch, ray.frame, ray.view, ray.nearest,
-                traversal);
+      intersect_subpatch(scene_shape(), MAY_BE_NONSMOOTH, triangles[subpatches[subpatch].triangle], subpatches[subpatch],
+                         subpatch, ray.frame, ray.view, ray.nearest, traversal);
       end_in_shadow(traversal);
       if (traversal.path == WHOLE) traversal.item = next_item(traversal.item);
     }
@@ -94,7 +96,7 @@ void traverse_robust(PixelRay ray, INOUT(Traversal) traversal) {
   }
 }
 
-// Goes on, for the pass-th time, until the walk is through or the steps of a pass are used.
+// Continues the traversal until it is finished or the steps of a pass are used up. pass: how many passes were before.
 void resume(PixelRay ray, uint pass, INOUT(Traversal) traversal) {
   if (SOLVER == SOLVER_ROBUST) {
     traverse_robust(ray, traversal);
@@ -103,7 +105,7 @@ void resume(PixelRay ray, uint pass, INOUT(Traversal) traversal) {
   }
 }
 
-// What a walk that is through has met, its z the distance from the eye.
+// The hit of a finished traversal; its z is the distance from the eye.
 Hit hit_of(PixelRay ray, Traversal traversal) {
   Hit hit = traversal.hit;
   hit.z = SOLVER == SOLVER_ROBUST ? ray.axis + (ray.beyond_axis + ray.frame.stretch * hit.z)
@@ -111,7 +113,7 @@ Hit hit_of(PixelRay ray, Traversal traversal) {
   return hit;
 }
 
-// The output of a cast ray whose walk is through.
+// The output of a cast ray whose traversal is finished.
 CastHit cast_result(PixelRay ray, Traversal traversal) {
   Hit hit = hit_of(ray, traversal);
   bool met = hit.triangle != NO_TRIANGLE;
@@ -127,7 +129,7 @@ CastHit cast_result(PixelRay ray, Traversal traversal) {
   return result;
 }
 
-// The outputs of a pixel whose ray met this, but for its counts.
+// The outputs of a pixel with this hit, but for the counts of work, which are 0.
 void shade_pixel(PixelRay ray, Hit hit, OUT(vec4) color, OUT(PixelAovs) aovs) {
   aovs.normal_z = vec4(0.0);
   aovs.geometric_u = vec4(0.0);
@@ -139,7 +141,7 @@ void shade_pixel(PixelRay ray, Hit hit, OUT(vec4) color, OUT(PixelAovs) aovs) {
   if (hit.triangle == NO_TRIANGLE) return;
   vec3 normal = vertex_normal(triangles[hit.triangle], hit.weights);
   vec3 point = ray.anchor + ray.view * (hit.z - (ray.axis + ray.beyond_axis));
-  // The thesis sees front faces only; the robust solver sees both, and lights the one it sees.
+  // Bisection hits front faces only, as in the thesis. The robust solver hits both sides, and lights the one that it hits.
   vec3 lit = SOLVER == SOLVER_ROBUST ? facing(normal, ray.view) : normal;
   color = vec4(shade(lit, point, vec3(params.light), params.grid), 1.0);
   if (AOVS) {
@@ -150,7 +152,7 @@ void shade_pixel(PixelRay ray, Hit hit, OUT(vec4) color, OUT(PixelAovs) aovs) {
   }
 }
 
-// The outputs of a pixel whose walk is through.
+// The outputs of a pixel whose traversal is finished.
 void finish_pixel(PixelRay ray, Traversal traversal, OUT(vec4) color, OUT(PixelAovs) aovs) {
   shade_pixel(ray, hit_of(ray, traversal), color, aovs);
   aovs.evaluations = traversal.counts.evaluations;

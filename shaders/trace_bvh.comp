@@ -1,5 +1,6 @@
 #version 450
-// The renderer over the tree of the parts' boxes: every pixel against the parts in whose boxes its ray comes.
+// Traces a frame. A ray's candidates are the subpatches whose bounding boxes it meets, found by the scene's BVH; each ray
+// traverses it by itself.
 #extension GL_GOOGLE_include_directive : require
 #define TRISECT_BVH
 #include "language.h"

@@ -1,5 +1,6 @@
 #version 450
-// The renderer as a compute kernel: every pixel against every triangle of the storage buffer.
+// Traces a frame without an acceleration structure: every ray tests the bounding balls of all subpatches (robust solver)
+// or triangles (bisection). Vulkan and OpenGL both use this kernel.
 #extension GL_GOOGLE_include_directive : require
 #include "language.h"
 #include "shared.h"

@@ -1,6 +1,6 @@
 #version 450
-// The renderer as the thesis has it, for OpenGL: a full-screen quad whose fragments are the pixels. A pixel that
-// pauses waits at its own place of the queue, for the quad to be drawn again.
+// Traces a frame as the thesis does, for OpenGL: the fragments of a full-screen quad are the pixels. Every pixel has a
+// place of its own in the queue; the quad is drawn again until no pixel is paused.
 #extension GL_GOOGLE_include_directive : require
 #include "language.h"
 #include "shared.h"
@@ -16,16 +16,16 @@ in vec2 across;
 #include "queue.glsl"
 #include "fragment_outputs.glsl"
 
-// The path of a pixel that does not wait.
-const uint NOWHERE = 0u;
+// PausedRay::path of a pixel that is not paused.
+const uint NOT_PAUSED = 0u;
 
 void main() {
-  // first_group is the band's lowest row.
+  // OpenGL draws without workgroups: first_group is the band's lowest row, counted from the bottom of the image.
   uvec2 pixel = fragment_pixel(push.first_group);
   uint index = (pixel.y - push.first_row) * params.width + pixel.x;
   precise Traversal traversal = begin_traversal(int(push.queue.steps));
   if (push.queue.pass > 0u) {
-    if (paused[index].path == NOWHERE) discard;
+    if (paused[index].path == NOT_PAUSED) discard;
     traversal = resumed_traversal(index, traversal.steps);
   }
   precise PixelRay ray = ray_through(to_near, across);
@@ -36,7 +36,7 @@ void main() {
     atomicAdd(state.queued, 1u);
     discard;
   }
-  if (push.queue.pass > 0u) paused[index].path = NOWHERE;
+  if (push.queue.pass > 0u) paused[index].path = NOT_PAUSED;
   precise vec4 color;
   precise PixelAovs aovs;
   finish_pixel(ray, traversal, color, aovs);

@@ -1,11 +1,12 @@
-// A kernel that traces walks: new ones, a pixel to an invocation, or what is left of paused ones.
+// The main function of kernels that trace one ray per invocation: new rays in a frame's first pass, paused rays after it.
 
-// The tile of its band in which a pixel lies.
+// The tile in which a pixel lies, counted from the first tile of the band.
 uint tile_of(uvec2 pixel) {
   return (pixel.y - push.first_row) / TILE_SIZE * tiles_across(params.width) + pixel.x / TILE_SIZE;
 }
 
-// The pixel of an invocation that begins one; outside of the image, if the image ends before its workgroup does.
+// The pixel of an invocation in the first pass. It may lie outside of the image, whose size need not be a multiple of the
+// workgroup's.
 uvec2 new_pixel() {
   uint group = push.first_group + gl_WorkGroupID.x;
   uint columns = tiles_across(params.width);

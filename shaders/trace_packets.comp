@@ -1,7 +1,7 @@
 #version 450
-// The renderer over the tree of the parts' boxes for packets of rays: a subgroup goes down it together, as long as one
-// of its rays may meet what is there. What Newton's method does not decide at once is left to trace_bvh.comp: no ray
-// waits here for a difficult neighbour.
+// Traces a frame by the scene's BVH for packets of rays: the rays of a subgroup traverse it together, into every box that
+// one of them may meet. Rays that Newton's method leaves undecided are queued for trace_bvh.comp, so that the other rays
+// of their packet do not wait for them here.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
@@ -23,16 +23,17 @@ layout(local_size_x = TILE_SIZE * TILE_SIZE) in;
 #include "intersect_quickly.glsl"
 #include "packets.glsl"
 
-// One part, all rays of the subgroup.
-void meet(uint subpatch, PixelRay ray, bool here, inout Traversal traversal, inout bool undecided) {
+// Intersects all rays of the subgroup with one subpatch; near: whether this invocation's ray meets its ball.
+void intersect_packet(uint subpatch, PixelRay ray, bool near, inout Traversal traversal, inout bool undecided) {
   precise SubpatchBounds bounds;
   precise Triangle tri;
-  load_by_all(subpatch, bounds, tri);
+  load_uniform(subpatch, bounds, tri);
   precise FramedPatch framed = sheared_patch(ray.frame, rotated_patch(ray.frame, SHELL, tri));
   float tolerance = position_tolerance(ray.frame, tri);
-  ControlNet net = control_net(framed, bounds.corner.xyz, bounds.edge.xyz, with_overlap(sub_triangle_at(bounds.sub_triangle, WHOLE)));
-  here = here && hull_overlaps_ray(net, ray.frame.stretch * bounds.corner.w + tolerance);
-  intersect_quickly(tri, bounds.triangle, bounds, framed, subpatch, ray, tolerance, here, traversal, undecided);
+  ControlNet net = control_net(framed, bounds.corner.xyz, bounds.edge.xyz,
+                               with_overlap(sub_triangle_at(bounds.sub_triangle, WHOLE)));
+  near = near && hull_overlaps_ray(net, ray.frame.stretch * bounds.corner.w + tolerance);
+  intersect_quickly(tri, bounds.triangle, bounds, framed, subpatch, ray, tolerance, near, traversal, undecided);
 }
 
 void main() {
@@ -43,17 +44,17 @@ void main() {
   precise Traversal traversal = begin_pixel_traversal(pixel, 0);
   Packet packet = packet_of(ray, traversal.hit.z != TRAVERSAL_ENDED);
   bool undecided = false;
-  Descent descent = descent_begun(packet);
-  bool here;
+  PacketTraversal packet_traversal = begin_packet_traversal(packet);
+  bool near;
   uint subpatch;
   do {
-    subpatch = next_part(packet, ray, traversal.hit.z, descent, here);
-    if (subpatch != NO_TRIANGLE) meet(subpatch, ray, here, traversal, undecided);
+    subpatch = next_packet_candidate(packet, ray, traversal.hit.z, packet_traversal, near);
+    if (subpatch != NO_TRIANGLE) intersect_packet(subpatch, ray, near, traversal, undecided);
     end_in_shadow(traversal);
   } while (subpatch != NO_TRIANGLE);
-  undecided = (undecided || descent.steps <= 0) && traversal.hit.z != TRAVERSAL_ENDED;
+  undecided = (undecided || packet_traversal.steps <= 0) && traversal.hit.z != TRAVERSAL_ENDED;
   if (pixel.x >= params.width || pixel.y >= params.height) return;
-  traversal.counts.bytes = descent.bytes;
+  traversal.counts.bytes = packet_traversal.bytes;
   count_bytes(traversal);
   if (undecided) {
     enqueue(pixel.y * params.width + pixel.x, traversal);

@@ -1,7 +1,7 @@
 #version 460
-// The renderer over the device's own acceleration structure (VK_KHR_ray_query): it finds the boxes in which a ray comes, in
-// any order, and the solver looks at the parts in them. A ray that takes too many steps for that starts anew in
-// trace_bvh.comp.
+// Traces a frame by the device's own acceleration structure (VK_KHR_ray_query) over the subpatches' bounding boxes, which
+// finds the boxes that a ray meets, in any order. A ray that takes more steps than a submit allows starts over in
+// trace_bvh.comp, because a ray query cannot be resumed.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_ray_query : require
 #define TRISECT_BVH
@@ -19,15 +19,15 @@ layout(local_size_x = TILE_SIZE * TILE_SIZE) in;
 #include "write_pixel.glsl"
 #include "queue.glsl"
 
-// Goes through all boxes. Returns false if the steps did not last.
+// Returns false if the steps were used up before the traversal was finished.
 bool traverse_query(PixelRay ray, inout Traversal traversal) {
-  // From where the ray comes into the scene's ball, about which positions count: however far away it began, its first
-  // point has the digits of the scene.
+  // The query gets the section of the ray within the scene's ball. A point at its beginning is rounded relative to the
+  // size of the scene, however far away the ray starts.
   float middle = -dot(ray.anchor, ray.view);
   float begin = max(ray.frame.stretch * ray.nearest, middle - addresses.scene_radius);
   float end = min(ray.frame.stretch * traversal.hit.z, middle + addresses.scene_radius);
   if (!(begin < end)) return true;
-  // What boxes of hits so near may still hold a hit at the same place.
+  // Boxes beyond the nearest hit by less than this rounding error may still hold a hit at the same depth.
   float slack = BVH_SLACK * (addresses.scene_radius + length(ray.anchor));
   float limit = end - begin + slack;
   rayQueryEXT query;
@@ -53,9 +53,9 @@ bool traverse_query(PixelRay ray, inout Traversal traversal) {
       rayQueryTerminateEXT(query);
       return true;
     }
-    float now = ray.frame.stretch * traversal.hit.z - begin + slack;
-    if (now < limit) {
-      limit = max(now, 0.0);
+    float new_limit = ray.frame.stretch * traversal.hit.z - begin + slack;
+    if (new_limit < limit) {
+      limit = max(new_limit, 0.0);
       rayQueryGenerateIntersectionEXT(query, limit);
     }
   }
@@ -69,9 +69,9 @@ void main() {
   if (pixel.x >= params.width || pixel.y >= params.height) return;
   precise PixelRay ray = ray_of(pixel);
   precise Traversal traversal = begin_pixel_traversal(pixel, int(push.queue.steps));
-  bool through = traversal.hit.z == TRAVERSAL_ENDED || traverse_query(ray, traversal);
+  bool finished = traversal.hit.z == TRAVERSAL_ENDED || traverse_query(ray, traversal);
   count_bytes(traversal);
-  if (!through) {
+  if (!finished) {
     traversal.path = WHOLE;
     enqueue(pixel.y * params.width + pixel.x, traversal);
     return;

@@ -1,5 +1,5 @@
 #version 450
-// Pixels that trace_tiles.comp left undecided, against every part that their tile touches.
+// Traces the pixels that trace_tiles.comp left undecided, each by the whole list of its tile.
 #extension GL_GOOGLE_include_directive : require
 #include "language.h"
 #include "shared.h"

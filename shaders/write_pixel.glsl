@@ -1,15 +1,18 @@
-// A pixel's ray, and its outputs. Rays for shadows start from what the frame's have met: the outputs before them.
+// A pixel's ray and its outputs. In the shadow pass (SHADOWS) the rays start from the hits of the camera rays, which are
+// read from the outputs of the pass before.
 #include "shadow.glsl"
 
 layout(std430, binding = BINDING_COLOR) writeonly restrict buffer ColorBlock { vec4 colors[]; };
 layout(std430, binding = BINDING_AOVS) restrict buffer AovsBlock { PixelAovs pixels[]; };
 
-// Among the outputs, which begin with the band's first row. Beside the image: that of its last pixel.
+// The index of a pixel in the outputs, which begin with the band's first row. A pixel outside of the image gets the index of
+// the nearest one within it.
 uint output_index(uvec2 pixel) {
   uint row = min(pixel.y, params.height - 1u) - push.first_row;
   return row * params.width + min(pixel.x, params.width - 1u);
 }
 
+// The ray of a pixel: its camera ray, or in the shadow pass its shadow ray.
 PixelRay ray_of(uvec2 pixel) {
   PixelRay ray = pixel_ray(pixel);
   if (!SHADOWS) return ray;
@@ -21,7 +24,7 @@ Traversal begin_pixel_traversal(uvec2 pixel, int steps) {
   return begin_shadow_traversal(pixels[output_index(pixel)], pixel_ray(pixel).view, steps);
 }
 
-// The outputs of a pixel whose walk is through.
+// Writes the outputs of a pixel whose traversal is finished.
 void write_pixel(uvec2 pixel, PixelRay ray, Traversal traversal) {
   uint index = output_index(pixel);
   if (SHADOWS) {

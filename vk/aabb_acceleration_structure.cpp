@@ -5,7 +5,7 @@
 namespace trisect::gpu {
 namespace {
 
-// One level's geometry, as building it takes it.
+// The description of one level's geometry that its build takes.
 struct Build {
   explicit Build(VkAccelerationStructureTypeKHR type) {
     info.type = type;
@@ -29,7 +29,7 @@ Build build_of_boxes(VkDeviceAddress boxes, std::size_t count) {
   aabbs.stride = sizeof(VkAabbPositionsKHR);
   build.geometry.geometryType = VK_GEOMETRY_TYPE_AABBS_KHR;
   build.geometry.geometry.aabbs = aabbs;
-  // A ray looks into a box once.
+  // The kernel handles each box at most once per ray.
   build.geometry.flags = VK_GEOMETRY_NO_DUPLICATE_ANY_HIT_INVOCATION_BIT_KHR;
   build.count = static_cast<uint32_t>(count);
   return build;
@@ -55,14 +55,15 @@ VkAccelerationStructureBuildSizesInfoKHR sizes_of(const Device& device, Build& b
   return sizes;
 }
 
-// Of what it makes, in bytes: that depends on counts alone.
-std::size_t result_size(const Device& device, Build build) {
+// Bytes of the structure that the build makes. They depend on the counts only, not on the
+// addresses.
+std::size_t structure_size(const Device& device, Build build) {
   return sizes_of(device, build).accelerationStructureSize;
 }
 
-// Waits until it is built.
-void run(const Device& device, Commands& commands, Build& build,
-         VkAccelerationStructureKHR structure) {
+// Builds a level and waits until it is built.
+void build_level(const Device& device, Commands& commands, Build& build,
+                 VkAccelerationStructureKHR structure) {
   const VkDeviceSize alignment = device.scratch_alignment();
   const Buffer scratch(device, sizes_of(device, build).buildScratchSize + alignment,
                        Memory::addressed, "scratch");
@@ -88,10 +89,10 @@ AabbAccelerationStructure::Level::Level(const Device& its_device,
   info.type = type;
   TRISECT_VK(device.structures().create(device.get(), &info, nullptr, &structure));
   device.name(VK_OBJECT_TYPE_ACCELERATION_STRUCTURE_KHR, structure, name);
-  VkAccelerationStructureDeviceAddressInfoKHR of{
+  VkAccelerationStructureDeviceAddressInfoKHR address_info{
       VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR};
-  of.accelerationStructure = structure;
-  address = device.structures().get_address(device.get(), &of);
+  address_info.accelerationStructure = structure;
+  address = device.structures().get_address(device.get(), &address_info);
 }
 
 AabbAccelerationStructure::Level::~Level() {
@@ -102,13 +103,13 @@ AabbAccelerationStructure::AabbAccelerationStructure(const Device& device, Stagi
                                                      Commands& commands,
                                                      std::span<const VkAabbPositionsKHR> boxes)
     : bottom_(device, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR,
-              result_size(device, build_of_boxes(0, boxes.size())), "boxes"),
+              structure_size(device, build_of_boxes(0, boxes.size())), "boxes"),
       top_(device, VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR,
-           result_size(device, build_of_instances(0)), "the scene of boxes") {
+           structure_size(device, build_of_instances(0)), "the scene of boxes") {
   const Buffer input(device, boxes.size_bytes(), Memory::addressed, "corners of boxes");
   staging.upload(commands, std::as_bytes(boxes), input);
   Build bottom = build_of_boxes(input.address(), boxes.size());
-  run(device, commands, bottom, bottom_.structure);
+  build_level(device, commands, bottom, bottom_.structure);
 
   VkAccelerationStructureInstanceKHR instance{};
   for (uint32_t k = 0; k < 3; ++k) instance.transform.matrix[k][k] = 1.0F;
@@ -117,7 +118,7 @@ AabbAccelerationStructure::AabbAccelerationStructure(const Device& device, Stagi
   const Buffer instances(device, sizeof(instance), Memory::addressed, "instance of the boxes");
   staging.upload(commands, std::as_bytes(std::span(&instance, 1)), instances);
   Build top = build_of_instances(instances.address());
-  run(device, commands, top, top_.structure);
+  build_level(device, commands, top, top_.structure);
 }
 
 }  // namespace trisect::gpu

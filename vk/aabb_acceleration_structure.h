@@ -1,4 +1,5 @@
-// A device's own acceleration structure over boxes, for kernels with ray queries.
+// An acceleration structure of the device over axis-aligned boxes, for kernels with ray queries
+// (VK_KHR_acceleration_structure).
 #pragma once
 
 #include <cstddef>
@@ -10,15 +11,18 @@
 
 namespace trisect::gpu {
 
+// A top level with one instance, the identity, of a bottom level with one geometry. The device must
+// outlive it.
 class AabbAccelerationStructure {
  public:
-  // Of at least one box. A ray meets box i as primitive i of geometry 0. The device must
-  // have_ray_query(). Throws Error if there is no memory.
+  // Builds it and waits until it is built. boxes: at least one; box i is primitive i of geometry 0.
+  // The device must have ray queries: Device::has_ray_query(). Throws Error if there is no memory.
   AabbAccelerationStructure(const Device& device, Staging& staging, Commands& commands,
                             std::span<const VkAabbPositionsKHR> boxes);
 
-  // That a kernel makes an accelerationStructureEXT of.
+  // The address from which a kernel constructs an accelerationStructureEXT.
   [[nodiscard]] VkDeviceAddress address() const { return top_.address; }
+  // Bytes of device memory.
   [[nodiscard]] std::size_t bytes() const { return bottom_.buffer.size() + top_.buffer.size(); }
 
  private:

@@ -24,18 +24,18 @@ Buffer::Buffer(const Device& device, std::size_t size, Memory memory, const std:
   require(vkCreateBuffer(device.get(), &info, nullptr, buffer_.fill(device.get())));
   device.name(VK_OBJECT_TYPE_BUFFER, buffer_.get(), name);
 
-  VkMemoryRequirements needs{};
-  vkGetBufferMemoryRequirements(device.get(), buffer_.get(), &needs);
+  VkMemoryRequirements requirements{};
+  vkGetBufferMemoryRequirements(device.get(), buffer_.get(), &requirements);
   VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
-  allocation.allocationSize = needs.size;
+  allocation.allocationSize = requirements.size;
   VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
   flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
   if (memory == Memory::addressed) allocation.pNext = &flags;
   allocation.memoryTypeIndex =
       memory != Memory::host
-          ? device.memory_type(needs.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)
+          ? device.memory_type(requirements.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)
           : device.memory_type(
-                needs.memoryTypeBits,
+                requirements.memoryTypeBits,
                 VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
                 VK_MEMORY_PROPERTY_HOST_CACHED_BIT);
   require(vkAllocateMemory(device.get(), &allocation, nullptr, memory_.fill(device.get())));

@@ -1,4 +1,5 @@
-// A command buffer with a pool of its own, recorded anew for every submit.
+// A command buffer with a pool of its own, recorded anew for every submit. The device must outlive
+// it.
 #pragma once
 
 #include <vulkan/vulkan.h>
@@ -10,12 +11,13 @@ namespace trisect::gpu {
 
 class CommandBuffer {
  public:
+  // Throws Error if there is no memory.
   explicit CommandBuffer(const Device& device);
 
   [[nodiscard]] VkCommandBuffer get() const { return handle_; }
 
-  // Forgets what was recorded, which must not be in use any more, and begins to record for one
-  // submit.
+  // Discards what was recorded, whose execution must be finished, and begins to record for one
+  // submit. Throws Error.
   void begin();
 
  private:

@@ -31,15 +31,15 @@ void Commands::begin() {
   }
 }
 
-void Commands::dispatch(const Kernel& kernel, const DescriptorSet& buffers,
+void Commands::dispatch(const Kernel& kernel, const DescriptorSet& descriptors,
                         std::span<const std::byte> push, uint32_t groups_x, uint32_t groups_y) {
   if (push.size() != kernel.interface().push_size) {
     throw std::logic_error("a kernel with " + std::to_string(kernel.interface().push_size) +
                            " bytes of push constants got " + std::to_string(push.size()));
   }
-  // The kernel reads what copies and earlier dispatches wrote.
+  // The kernel may read what copies and earlier dispatches wrote.
   order_after_writes();
-  const VkDescriptorSet set = buffers.get();
+  const VkDescriptorSet set = descriptors.get();
   vkCmdBindPipeline(commands_.get(), VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
   vkCmdBindDescriptorSets(commands_.get(), VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0, 1,
                           &set, 0, nullptr);
@@ -52,8 +52,9 @@ void Commands::dispatch(const Kernel& kernel, const DescriptorSet& buffers,
 
 void Commands::build(const VkAccelerationStructureBuildGeometryInfoKHR& info,
                      const VkAccelerationStructureBuildRangeInfoKHR& range) {
-  // It reads what was copied and built before, and kernels of later submits read it. Builds are
-  // rare: they wait for everything, and everything for them.
+  // A build reads what was copied and built before it, and kernels of later submits read its
+  // result. Builds are rare, so the barriers are as wide as possible: between everything before and
+  // after.
   const auto order = [&] {
     VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
     barrier.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
@@ -68,14 +69,14 @@ void Commands::build(const VkAccelerationStructureBuildGeometryInfoKHR& info,
 }
 
 void Commands::clear(const Buffer& buffer) {
-  // What it held may still be read.
+  // Earlier commands may still read what is overwritten.
   order_after_writes();
   vkCmdFillBuffer(commands_.get(), buffer.get(), 0, VK_WHOLE_SIZE, 0);
 }
 
 void Commands::copy(const Buffer& from, std::size_t from_offset, const Buffer& to,
                     std::size_t to_offset, std::size_t size) {
-  // The source may have been written by a dispatch, the target read by one.
+  // Earlier dispatches may write the source and read the target.
   order_after_writes();
   const VkBufferCopy region{from_offset, to_offset, size};
   vkCmdCopyBuffer(commands_.get(), from.get(), to.get(), 1, &region);
@@ -93,8 +94,7 @@ void Commands::order_after_writes() {
 }
 
 double Commands::submit_and_wait() {
-  // Whatever was copied to host memory, or written there by a kernel, is read there after the
-  // fence.
+  // The host reads what transfers and kernels wrote to host memory, once the fence is signalled.
   VkMemoryBarrier to_host{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
   to_host.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_WRITE_BIT;
   to_host.dstAccessMask = VK_ACCESS_HOST_READ_BIT;

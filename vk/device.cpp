@@ -33,7 +33,7 @@ bool can_address_buffers(VkPhysicalDevice device) {
   return addresses.bufferDeviceAddress == VK_TRUE;
 }
 
-// What ray queries take beside the addresses of buffers, on a device of Vulkan 1.1.
+// The extensions that ray queries need in Vulkan 1.1, beside that for buffer addresses.
 constexpr std::array kQueryExtensions{VK_KHR_RAY_QUERY_EXTENSION_NAME,
                                       VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
                                       VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
@@ -66,22 +66,23 @@ VkDeviceSize scratch_alignment_of(VkPhysicalDevice device) {
   return structures.minAccelerationStructureScratchOffsetAlignment;
 }
 
-// The queue family that computes, draws and shows pictures on the surface, or -1.
-int showing_family(VkPhysicalDevice device, VkSurfaceKHR surface) {
+// The index of a queue family with compute and graphics that can present to the surface, or -1.
+int presenting_family(VkPhysicalDevice device, VkSurfaceKHR surface) {
   uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
   constexpr VkQueueFlags both = VK_QUEUE_COMPUTE_BIT | VK_QUEUE_GRAPHICS_BIT;
   for (uint32_t i = 0; i < count; ++i) {
-    VkBool32 shows = VK_FALSE;
-    TRISECT_VK(vkGetPhysicalDeviceSurfaceSupportKHR(device, i, surface, &shows));
-    if ((families[i].queueFlags & both) == both && shows == VK_TRUE) return static_cast<int>(i);
+    VkBool32 presents = VK_FALSE;
+    TRISECT_VK(vkGetPhysicalDeviceSurfaceSupportKHR(device, i, surface, &presents));
+    if ((families[i].queueFlags & both) == both && presents == VK_TRUE) return static_cast<int>(i);
   }
   return -1;
 }
 
-// What the header of a pipeline cache has, and the driver's version.
+// Device::pipeline_key(): the identifiers in the header of a pipeline cache, and the driver's
+// version.
 std::string key_of(const VkPhysicalDeviceProperties& properties) {
   constexpr const char* digits = "0123456789abcdef";
   std::string key;
@@ -110,8 +111,8 @@ Device::Device(const Instance& instance, const std::string& request, VkSurfaceKH
   int family = compute_family(physical);
   std::vector<const char*> extensions;
   if (surface != VK_NULL_HANDLE) {
-    const bool can_show = has_extension(physical, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
-    family = can_show ? showing_family(physical, surface) : -1;
+    const bool has_swapchain = has_extension(physical, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    family = has_swapchain ? presenting_family(physical, surface) : -1;
     if (family < 0) {
       throw NoDevice("device " + report_.name + " cannot show pictures in this window.");
     }

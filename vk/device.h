@@ -1,4 +1,4 @@
-// A logical device with one compute queue, and the facts about it that the rest of the layer needs.
+// A logical device with one queue, and the properties that the rest of the layer needs.
 #pragma once
 
 #include <vulkan/vulkan.h>
@@ -14,11 +14,14 @@
 
 namespace trisect::gpu {
 
+// All that is made of a device must be destroyed before it. A device and what is made of it belong
+// to one thread at a time, because they share its queue and its pipeline cache, unless a function
+// says otherwise; several devices can be used by as many threads.
 class Device {
  public:
-  // request: empty, a number or a part of the name, as choose_device takes it. surface: that the
-  // device is to show pictures on, if any. The instance must outlive the device. Throws NoDevice or
-  // Error.
+  // request: which device, as choose_device() takes it. surface: a window's, on which the device
+  // will present; the queue then has graphics too. The instance must outlive the device. Throws
+  // NoDevice if no device fits, Error if the driver fails.
   Device(const Instance& instance, const std::string& request,
          VkSurfaceKHR surface = VK_NULL_HANDLE);
   ~Device() = default;
@@ -30,21 +33,22 @@ class Device {
   [[nodiscard]] VkDevice get() const { return handle_.device; }
   [[nodiscard]] VkPhysicalDevice physical() const { return physical_; }
   [[nodiscard]] VkQueue queue() const { return queue_; }
+  // The queue's family.
   [[nodiscard]] uint32_t family() const { return family_; }
   [[nodiscard]] const DeviceReport& report() const { return report_; }
   [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return limits_; }
 
-  // Invocations of a subgroup; 0 if kernels may not use subgroupBroadcast, subgroupMin and their
-  // like.
+  // Invocations per subgroup; 0 if compute shaders lack the vote, ballot or arithmetic operations
+  // of subgroups.
   [[nodiscard]] uint32_t subgroup_size() const { return subgroup_size_; }
 
-  // Whether kernels may reach buffers by their addresses.
+  // Whether kernels can reach buffers by their addresses (VK_KHR_buffer_device_address).
   [[nodiscard]] bool has_addresses() const { return address_of_ != nullptr; }
-  // Only if has_addresses().
+  // The buffer must have been made for it. Only if has_addresses().
   [[nodiscard]] VkDeviceAddress address_of(VkBuffer buffer) const;
 
-  // Whether kernels may look for boxes by the device's own acceleration structures. The others:
-  // only if they may.
+  // Whether kernels can trace rays by acceleration structures (VK_KHR_ray_query). structures() and
+  // scratch_alignment() are valid only if they can.
   [[nodiscard]] bool has_ray_query() const { return structures_.create != nullptr; }
   struct StructureFunctions {
     PFN_vkCreateAccelerationStructureKHR create = nullptr;
@@ -56,23 +60,24 @@ class Device {
   [[nodiscard]] const StructureFunctions& structures() const { return structures_; }
   [[nodiscard]] VkDeviceSize scratch_alignment() const { return scratch_alignment_; }
 
-  // What the driver keeps of the pipelines that were made, for vkCreateComputePipelines.
+  // The cache of compiled pipelines that all pipelines of this device are made with.
   [[nodiscard]] VkPipelineCache pipeline_cache() const { return pipeline_cache_.get(); }
-  // The same as bytes that another run may add to its own. They are good for a device and a driver
-  // of the same key, a word of letters, digits and dashes.
+  // The cache's content, which a later run can add to its own cache if the device and the driver
+  // have the same pipeline_key(): hexadecimal digits and dashes, fit for a file name.
   [[nodiscard]] std::vector<std::byte> pipeline_data() const;
   void add_pipeline_data(std::span<const std::byte> data) const;
   [[nodiscard]] const std::string& pipeline_key() const { return pipeline_key_; }
 
-  // Bits of a timestamp that count; 0 if the queue cannot write timestamps.
+  // Valid bits of a timestamp; 0 if the queue cannot write timestamps.
   [[nodiscard]] uint32_t timestamp_bits() const { return timestamp_bits_; }
 
-  // The first memory type among `allowed` (a bit mask) that has `required` and, if possible,
-  // `preferred`.
+  // The index of the first memory type among `allowed` (a bit mask) that has the properties
+  // `required` and, if there is such a type, also `preferred`. Throws Error if none has those
+  // required.
   [[nodiscard]] uint32_t memory_type(uint32_t allowed, VkMemoryPropertyFlags required,
                                      VkMemoryPropertyFlags preferred) const;
 
-  // Shows the object under this name in validation messages and debuggers.
+  // Gives an object a name for validation messages and debuggers, if the instance can.
   template <typename Handle>
   void name(VkObjectType type, Handle handle, const std::string& text) const {
     name_object(type, reinterpret_cast<uint64_t>(handle), text);
@@ -82,7 +87,7 @@ class Device {
   void load_structure_functions();
   void name_object(VkObjectType type, uint64_t handle, const std::string& text) const;
 
-  // A logical device is destroyed after what it made.
+  // Declared before the objects that the device made, so that it is destroyed after them.
   struct Handle {
     VkDevice device = VK_NULL_HANDLE;
     Handle() = default;

@@ -1,16 +1,17 @@
-// What goes wrong with a device.
+// The exceptions of the Vulkan layer. Outside of it they are called DeviceError and NoDevice
+// (app/base/error.h).
 #pragma once
 
 #include <stdexcept>
 
 namespace trisect::gpu {
 
-// A call that did not succeed, or a device that cannot do what is asked of it.
+// A Vulkan call failed, or the device cannot do what is asked of it.
 class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// No device fits; the message lists each one and what it lacks.
+// There is no usable device. If there are devices, the message lists each one with what it lacks.
 class NoDevice : public Error {
   using Error::Error;
 };

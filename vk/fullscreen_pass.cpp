@@ -17,7 +17,7 @@ VkPipelineShaderStageCreateInfo stage_of(VkShaderStageFlagBits stage, const Shad
   return info;
 }
 
-// The interface with the texture.
+// The interface with a binding for the texture added.
 KernelInterface with_texture(KernelInterface interface, uint32_t binding) {
   interface.bindings.push_back({binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER});
   return interface;
@@ -101,7 +101,7 @@ void FullscreenPass::bind(const std::vector<const Buffer*>& buffers, const Textu
 
 void FullscreenPass::draw(VkCommandBuffer commands, std::span<const std::byte> push) const {
   if (push.size() != interface_.push_size) {
-    throw std::logic_error("a screen pass with " + std::to_string(interface_.push_size) +
+    throw std::logic_error("a fullscreen pass with " + std::to_string(interface_.push_size) +
                            " bytes of push constants got " + std::to_string(push.size()));
   }
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());

@@ -1,4 +1,5 @@
-// A graphics pipeline that covers an image by one triangle, its fragments read from buffers.
+// A graphics pipeline that covers an image by one triangle; its fragment shader reads buffers and a
+// texture.
 #pragma once
 
 #include <cstddef>
@@ -14,19 +15,23 @@
 
 namespace trisect::gpu {
 
+// For one thread at a time; the device must outlive it.
 class FullscreenPass {
  public:
-  // The vertex shader draws three vertices without input; interface: of the fragment shader, which
-  // has a texture at another binding.
+  // vertex, fragment: SPIR-V. The vertex shader gets three vertices without attributes. interface:
+  // the fragment shader's buffers and push constants; it also has a texture at texture_binding.
+  // Throws Error.
   FullscreenPass(const Device& device, VkRenderPass render_pass, std::span<const uint32_t> vertex,
                  std::span<const uint32_t> fragment, KernelInterface interface,
                  uint32_t texture_binding, const std::string& name);
 
-  // What the next draws read: a buffer for each binding of the interface, in its order, and the
-  // texture. No frame that reads others may be in flight; they must live until the next call.
+  // Binds what the next draws read: a buffer for each binding of the interface, in its order, and
+  // the texture. They must live until the next call. No submitted draw may still be executing.
+  // Throws std::logic_error unless there are as many buffers as bindings.
   void bind(const std::vector<const Buffer*>& buffers, const Texture& texture);
 
-  // push: exactly as many bytes as the interface says.
+  // Records a draw, within a render pass compatible with that of the constructor. push: the push
+  // constants; throws std::logic_error unless they are as many bytes as the interface says.
   void draw(VkCommandBuffer commands, std::span<const std::byte> push) const;
 
  private:

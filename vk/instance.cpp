@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
-// What the kernels need of a device, beside a compute queue.
+// What a device must have, beside a queue with compute.
 constexpr uint32_t kApiVersion = VK_API_VERSION_1_1;
 constexpr uint32_t kWorkgroupInvocations = 64;
 

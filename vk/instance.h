@@ -1,5 +1,5 @@
-// The Vulkan instance: the devices that are there, and the messages of the validation layer on
-// request.
+// The Vulkan instance: which devices there are, and on request the messages of the validation
+// layer.
 #pragma once
 
 #include <vulkan/vulkan.h>
@@ -12,19 +12,20 @@
 
 namespace trisect::gpu {
 
-// What a user sees of a device, and why it cannot be used if it cannot.
+// A description of a device for users.
 struct DeviceReport {
   std::string name;
-  std::string type;    // "cpu", "discrete gpu", ...
-  std::string driver;  // name and version
-  std::string api;     // Vulkan version, "1.3.230"
-  std::vector<std::string> lacks;
-  int rank = 0;  // higher is preferred when nothing is asked for
+  std::string type;                // "cpu", "discrete gpu", ...
+  std::string driver;              // name and version
+  std::string api;                 // Vulkan version, "1.3.230"
+  std::vector<std::string> lacks;  // what it would need to be usable; empty if it is usable
+  int rank = 0;                    // by type; the highest is preferred if the user names no device
 
   [[nodiscard]] bool usable() const { return lacks.empty(); }
 };
 
-// The validation layer's messages, in order of arrival. Filled from the driver's threads.
+// The validation layer's messages, in order of arrival. The layer adds them from any thread: all
+// functions are safe to call from several threads at once.
 class MessageLog {
  public:
   void add(std::string message);
@@ -36,11 +37,13 @@ class MessageLog {
   std::vector<std::string> messages_;
 };
 
+// Its const functions are safe to call from several threads at once.
 class Instance {
  public:
-  // validation: the Khronos layer with synchronisation validation. surface_extensions: what a
-  // window system needs to show pictures, for a program that does. Throws NoDevice if there is no
-  // Vulkan driver at all, or no validation layer where one is asked for.
+  // validation: with the Khronos validation layer, synchronisation validation included.
+  // surface_extensions: instance extensions that the window system needs, if there is a window.
+  // Throws NoDevice if there is no Vulkan driver, or no validation layer though it is asked for,
+  // and Error if the driver fails.
   explicit Instance(bool validation, std::span<const char* const> surface_extensions = {});
   ~Instance();
   Instance(const Instance&) = delete;
@@ -51,7 +54,7 @@ class Instance {
   [[nodiscard]] VkInstance get() const { return instance_; }
   [[nodiscard]] const std::vector<VkPhysicalDevice>& physical_devices() const { return devices_; }
 
-  // One report per physical device, in the driver's order.
+  // One report per physical device, in the order of physical_devices().
   [[nodiscard]] std::vector<DeviceReport> reports() const;
 
   [[nodiscard]] MessageLog& log() const { return *log_; }
@@ -67,12 +70,13 @@ class Instance {
   bool debug_utils_ = false;
 };
 
-// The queue family with compute that a device offers, or -1.
+// The index of a device's first queue family with compute, or -1.
 int compute_family(VkPhysicalDevice device);
 
-// Which of `reports` to use: the preferred usable one if request is empty, the one of that number,
-// or the only one whose name contains the request (letter case aside). Throws NoDevice, listing
-// every device with what it lacks.
+// The index of the device to use. request: empty for the usable one of the highest rank; a number
+// for the one with this index; else a part of its name, in any case. Throws NoDevice, with a list
+// of all devices and what they lack, if none fits, if a name fits several, or if the device is not
+// usable.
 std::size_t choose_device(const std::vector<DeviceReport>& reports, const std::string& request);
 
 }  // namespace trisect::gpu

@@ -1,4 +1,4 @@
-// A compute pipeline, and the buffers bound to it.
+// Compute pipelines and their descriptor sets.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,17 @@
 
 namespace trisect::gpu {
 
+// The value of a specialisation constant; a bool is 0 or 1.
 struct Specialization {
   uint32_t constant_id;
   uint32_t value;
 };
 
+// A compute pipeline with its layouts. The device must outlive it.
 class Kernel {
  public:
+  // spirv: words with the entry point "main"; constants: those not named keep their defaults; name:
+  // for messages. Throws Error if the driver cannot compile it.
   Kernel(const Device& device, std::span<const uint32_t> spirv, KernelInterface interface,
          const std::vector<Specialization>& constants, const std::string& name);
 
@@ -35,11 +39,12 @@ class Kernel {
   Owned<VkPipeline, vkDestroyPipeline> pipeline_;
 };
 
-// A descriptor set for a kernel. Every binding of the kernel's interface gets its buffer here,
-// once.
+// A descriptor set with a buffer for every binding of a kernel's interface. It serves all kernels
+// of that interface.
 class DescriptorSet {
  public:
-  // buffers: one for each binding of the interface, in its order; they must outlive this object.
+  // buffers: one for each binding of the interface, in its order; they must outlive the set. Throws
+  // std::logic_error if their number is another, Error if there is no memory.
   DescriptorSet(const Device& device, const Kernel& kernel,
                 const std::vector<const Buffer*>& buffers);
 

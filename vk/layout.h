@@ -1,5 +1,5 @@
-// What compute and graphics pipelines have in common: shader modules, the layouts of descriptor set
-// 0 and of push constants, and the set itself.
+// What compute and graphics pipelines have in common: shader modules, layouts and descriptor sets.
+// All functions throw Error if the driver fails.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,10 @@ struct Binding {
   VkDescriptorType type;
 };
 
-// Descriptor set 0, push constants of push_size bytes, entry point "main".
+// What a shader binds: buffers in descriptor set 0, and push constants.
 struct KernelInterface {
   std::vector<Binding> bindings;
-  uint32_t push_size = 0;
+  uint32_t push_size = 0;  // bytes of the push constants
 };
 
 using ShaderModule = Owned<VkShaderModule, vkDestroyShaderModule>;
@@ -34,12 +34,13 @@ SetLayout make_set_layout(const Device& device, const KernelInterface& interface
 PipelineLayout make_pipeline_layout(const Device& device, VkDescriptorSetLayout set,
                                     const KernelInterface& interface, VkShaderStageFlags stage);
 
-// For one set of the interface.
+// A pool for one descriptor set of the interface.
 DescriptorPool make_pool(const Device& device, const KernelInterface& interface);
 VkDescriptorSet allocate_set(const Device& device, VkDescriptorPool pool,
                              VkDescriptorSetLayout layout);
 
-// buffers: one for each binding, in the interface's order.
+// Writes the buffers to a set: one for each binding, in the interface's order. Throws
+// std::logic_error if their number is another.
 void write_set(const Device& device, VkDescriptorSet set, const KernelInterface& interface,
                const std::vector<const Buffer*>& buffers);
 

@@ -1,6 +1,6 @@
 #include "vk/result.h"
 
-// The only use of vulkan.hpp: its names for the enumerations.
+// vulkan.hpp is used for the names of enumerators only.
 #include <vulkan/vulkan.hpp>
 
 namespace trisect::gpu {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr uint64_t kForever = std::numeric_limits<uint64_t>::max();
 
-// What the frames have is encoded already: the format must not encode it again.
+// A format without sRGB encoding: the frames' colours are encoded already.
 VkSurfaceFormatKHR format_for(const Device& device, VkSurfaceKHR surface) {
   uint32_t count = 0;
   TRISECT_VK(vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical(), surface, &count, nullptr));
@@ -39,7 +39,7 @@ Swapchain::Swapchain(const Device& device, VkSurfaceKHR surface)
   VkAttachmentDescription attachment{};
   attachment.format = format_.format;
   attachment.samples = VK_SAMPLE_COUNT_1_BIT;
-  // The picture covers it.
+  // Every pixel is drawn, so nothing needs to be loaded.
   attachment.loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
   attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
   attachment.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
@@ -51,8 +51,8 @@ Swapchain::Swapchain(const Device& device, VkSurfaceKHR surface)
   subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
   subpass.colorAttachmentCount = 1;
   subpass.pColorAttachments = &color;
-  // The image may be written once the semaphore of its acquisition, which the stage of colour
-  // output waits for, has been signalled.
+  // The submit waits for the image's acquisition in the stage of colour output: the transition to
+  // the attachment's layout must not happen earlier.
   VkSubpassDependency dependency{};
   dependency.srcSubpass = VK_SUBPASS_EXTERNAL;
   dependency.srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
@@ -75,7 +75,7 @@ Swapchain::Swapchain(const Device& device, VkSurfaceKHR surface)
 }
 
 void Swapchain::finish() noexcept {
-  // The semaphores of shown images are in use until the queue is idle, which no fence tells.
+  // Presentation uses the semaphores until the queue is idle; no fence signals that.
   vkQueueWaitIdle(device_->queue());
 }
 
@@ -85,31 +85,34 @@ void Swapchain::wait() {
 }
 
 bool Swapchain::renew(uint32_t width, uint32_t height) {
-  VkSurfaceCapabilitiesKHR can{};
-  TRISECT_VK(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device_->physical(), surface_, &can));
-  VkExtent2D extent = can.currentExtent;
-  // Where the surface leaves it to its images.
+  VkSurfaceCapabilitiesKHR capabilities{};
+  TRISECT_VK(
+      vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device_->physical(), surface_, &capabilities));
+  VkExtent2D extent = capabilities.currentExtent;
+  // The special value says that the images decide the surface's size.
   if (extent.width == std::numeric_limits<uint32_t>::max()) {
-    extent = {std::clamp(width, can.minImageExtent.width, can.maxImageExtent.width),
-              std::clamp(height, can.minImageExtent.height, can.maxImageExtent.height)};
+    extent = {
+        std::clamp(width, capabilities.minImageExtent.width, capabilities.maxImageExtent.width),
+        std::clamp(height, capabilities.minImageExtent.height, capabilities.maxImageExtent.height)};
   }
   if (extent.width == 0 || extent.height == 0) return false;
-  // Nothing of the old images is in use any more.
+  // The old images must not be in use when they are destroyed.
   TRISECT_VK(vkQueueWaitIdle(device_->queue()));
   images_.clear();
 
   VkSwapchainCreateInfoKHR info{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
   info.surface = surface_;
-  info.minImageCount = std::max(can.minImageCount, uint32_t{2});
-  if (can.maxImageCount > 0) info.minImageCount = std::min(info.minImageCount, can.maxImageCount);
+  info.minImageCount = std::max(capabilities.minImageCount, uint32_t{2});
+  if (capabilities.maxImageCount > 0)
+    info.minImageCount = std::min(info.minImageCount, capabilities.maxImageCount);
   info.imageFormat = format_.format;
   info.imageColorSpace = format_.colorSpace;
   info.imageExtent = extent;
   info.imageArrayLayers = 1;
   info.imageUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
   info.imageSharingMode = VK_SHARING_MODE_EXCLUSIVE;
-  info.preTransform = can.currentTransform;
-  info.compositeAlpha = opaque_or_any(can.supportedCompositeAlpha);
+  info.preTransform = capabilities.currentTransform;
+  info.compositeAlpha = opaque_or_any(capabilities.supportedCompositeAlpha);
   info.presentMode = VK_PRESENT_MODE_FIFO_KHR;  // the one that every device has
   info.clipped = VK_TRUE;
   info.oldSwapchain = swapchain_.get();
@@ -124,14 +127,14 @@ bool Swapchain::renew(uint32_t width, uint32_t height) {
   std::vector<VkImage> images(count);
   TRISECT_VK(vkGetSwapchainImagesKHR(handle, swapchain_.get(), &count, images.data()));
   for (const VkImage image : images) {
-    Image& one = images_.emplace_back();
+    Image& added = images_.emplace_back();
     VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
     view.image = image;
     view.viewType = VK_IMAGE_VIEW_TYPE_2D;
     view.format = format_.format;
     view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    TRISECT_VK(vkCreateImageView(handle, &view, nullptr, one.view.fill(handle)));
-    const VkImageView attachment = one.view.get();
+    TRISECT_VK(vkCreateImageView(handle, &view, nullptr, added.view.fill(handle)));
+    const VkImageView attachment = added.view.get();
     VkFramebufferCreateInfo framebuffer{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
     framebuffer.renderPass = render_pass_.get();
     framebuffer.attachmentCount = 1;
@@ -139,9 +142,9 @@ bool Swapchain::renew(uint32_t width, uint32_t height) {
     framebuffer.width = extent_.width;
     framebuffer.height = extent_.height;
     framebuffer.layers = 1;
-    TRISECT_VK(vkCreateFramebuffer(handle, &framebuffer, nullptr, one.framebuffer.fill(handle)));
+    TRISECT_VK(vkCreateFramebuffer(handle, &framebuffer, nullptr, added.framebuffer.fill(handle)));
     const VkSemaphoreCreateInfo semaphore{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
-    TRISECT_VK(vkCreateSemaphore(handle, &semaphore, nullptr, one.drawn.fill(handle)));
+    TRISECT_VK(vkCreateSemaphore(handle, &semaphore, nullptr, added.drawn.fill(handle)));
   }
   current_ = true;
   return true;
@@ -185,7 +188,7 @@ bool Swapchain::show(uint32_t width, uint32_t height, const Recorder& prepare,
     current_ = false;
     return false;
   }
-  // A suboptimal image can be shown; the next frame gets new ones.
+  // A suboptimal image can be presented; the next frame gets new ones.
   if (acquisition != VK_SUBOPTIMAL_KHR) check(acquisition, "vkAcquireNextImageKHR");
   const Image& image = images_[index];
   record(image, prepare, draw);

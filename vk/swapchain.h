@@ -1,4 +1,4 @@
-// The images of a window: acquired, drawn into, shown.
+// The images of a window: acquired, drawn and presented.
 #pragma once
 
 #include <vulkan/vulkan.h>
@@ -13,15 +13,15 @@
 
 namespace trisect::gpu {
 
-// A swapchain with a render pass whose one attachment is its image, 8 bits a component without
-// encoding: what is drawn is shown as it is. One frame is in flight: the host waits for the last
-// one before it draws the next.
+// A swapchain with a render pass whose only attachment is the swapchain's image, of 8 bits per
+// component in a UNORM format: shaders write colours that are encoded as sRGB already. One frame is
+// in flight: show() waits for the last one. For one thread at a time.
 class Swapchain {
  public:
   using Recorder = std::function<void(VkCommandBuffer)>;
 
-  // The device must have been made for the surface, and both must outlive the swapchain. Throws
-  // Error.
+  // The device must have been made for this surface; both must outlive the swapchain. Throws Error
+  // if the surface has no such format.
   Swapchain(const Device& device, VkSurfaceKHR surface);
   ~Swapchain() { finish(); }
   Swapchain(const Swapchain&) = delete;
@@ -32,20 +32,20 @@ class Swapchain {
   [[nodiscard]] VkRenderPass render_pass() const { return render_pass_.get(); }
   [[nodiscard]] VkExtent2D extent() const { return extent_; }
 
-  // Draws and shows a frame: `prepare` records into the command buffer before the render pass,
-  // `draw` within it; the compute shaders' writes before it are visible to its fragment shaders.
-  // width, height: the window's size in pixels; where the surface does not say its own, the images
-  // get it. Returns whether a frame was shown: none is while the window has no size, and one may be
-  // lost while that changes. Throws Error.
+  // Draws and presents a frame. prepare: records commands before the render pass; draw: within it.
+  // What compute shaders and copies of earlier submits wrote is visible to the fragment shaders.
+  // width, height: the window's size in pixels, which the images get if the surface has no size of
+  // its own. Returns whether a frame was presented: not while the window's width or height is 0,
+  // and perhaps not while its size changes. Throws Error.
   bool show(uint32_t width, uint32_t height, const Recorder& prepare, const Recorder& draw);
 
-  // Until the last frame is drawn: what it read may be written again.
+  // Waits until the last frame is drawn: what it reads may then be overwritten.
   void wait();
 
-  // Until nothing that was drawn or shown is in use by the device any more.
+  // Waits until the device uses nothing of the swapchain any more.
   void finish() noexcept;
 
-  // Makes the next frame begin with new images, as after a change of the window's size.
+  // The window's size has changed: the next frame gets new images.
   void outdate() { current_ = false; }
 
  private:
@@ -55,7 +55,7 @@ class Swapchain {
     Owned<VkSemaphore, vkDestroySemaphore> drawn;
   };
 
-  // New images of the surface's size; false if it has none.
+  // Makes new images of the surface's size. Returns false if its width or height is 0.
   bool renew(uint32_t width, uint32_t height);
   void record(const Image& image, const Recorder& prepare, const Recorder& draw);
 

@@ -24,12 +24,12 @@ Texture::Texture(const Device& device, uint32_t width, uint32_t height, const st
   info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
   TRISECT_VK(vkCreateImage(device.get(), &info, nullptr, image_.fill(device.get())));
   device.name(VK_OBJECT_TYPE_IMAGE, image_.get(), name);
-  VkMemoryRequirements needs{};
-  vkGetImageMemoryRequirements(device.get(), image_.get(), &needs);
+  VkMemoryRequirements requirements{};
+  vkGetImageMemoryRequirements(device.get(), image_.get(), &requirements);
   VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
-  allocation.allocationSize = needs.size;
+  allocation.allocationSize = requirements.size;
   allocation.memoryTypeIndex =
-      device.memory_type(needs.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+      device.memory_type(requirements.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
   TRISECT_VK(vkAllocateMemory(device.get(), &allocation, nullptr, memory_.fill(device.get())));
   TRISECT_VK(vkBindImageMemory(device.get(), image_.get(), memory_.get(), 0));
   VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
@@ -39,12 +39,13 @@ Texture::Texture(const Device& device, uint32_t width, uint32_t height, const st
   view.subresourceRange = kWhole;
   TRISECT_VK(vkCreateImageView(device.get(), &view, nullptr, view_.fill(device.get())));
   VkSamplerCreateInfo sampler{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
-  // Not all devices can filter floats of 32 bits: on others a small frame has its pixels' edges.
-  VkFormatProperties can{};
-  vkGetPhysicalDeviceFormatProperties(device.physical(), kFormat, &can);
-  const bool filters =
-      (can.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT) != 0;
-  sampler.magFilter = filters ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
+  // Not all devices can filter 32-bit floats. On those that cannot, an enlarged frame shows the
+  // edges of its pixels.
+  VkFormatProperties properties{};
+  vkGetPhysicalDeviceFormatProperties(device.physical(), kFormat, &properties);
+  const bool can_filter =
+      (properties.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT) != 0;
+  sampler.magFilter = can_filter ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
   sampler.minFilter = sampler.magFilter;
   sampler.addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
   sampler.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
@@ -52,22 +53,22 @@ Texture::Texture(const Device& device, uint32_t width, uint32_t height, const st
   TRISECT_VK(vkCreateSampler(device.get(), &sampler, nullptr, sampler_.fill(device.get())));
 }
 
-void Texture::turn(VkCommandBuffer commands, VkImageLayout from, VkImageLayout to) const {
-  const bool before = to == VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+void Texture::change_layout(VkCommandBuffer commands, VkImageLayout from, VkImageLayout to) const {
+  const bool for_copy = to == VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
   VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
-  barrier.srcAccessMask = before ? 0 : VK_ACCESS_TRANSFER_WRITE_BIT;
-  barrier.dstAccessMask = before ? VK_ACCESS_TRANSFER_WRITE_BIT : VK_ACCESS_SHADER_READ_BIT;
+  barrier.srcAccessMask = for_copy ? 0 : VK_ACCESS_TRANSFER_WRITE_BIT;
+  barrier.dstAccessMask = for_copy ? VK_ACCESS_TRANSFER_WRITE_BIT : VK_ACCESS_SHADER_READ_BIT;
   barrier.oldLayout = from;
   barrier.newLayout = to;
   barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
   barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
   barrier.image = image_.get();
   barrier.subresourceRange = kWhole;
-  // Fragments of the frame before have read what is overwritten.
+  // The fragments of the last frame must have read the texture before it is overwritten.
   const VkPipelineStageFlags fragments = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
   const VkPipelineStageFlags transfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
-  vkCmdPipelineBarrier(commands, before ? fragments : transfer, before ? transfer : fragments, 0, 0,
-                       nullptr, 0, nullptr, 1, &barrier);
+  vkCmdPipelineBarrier(commands, for_copy ? fragments : transfer, for_copy ? transfer : fragments,
+                       0, 0, nullptr, 0, nullptr, 1, &barrier);
 }
 
 void Texture::copy(VkCommandBuffer commands, const Buffer& from, uint32_t width,
@@ -77,13 +78,14 @@ void Texture::copy(VkCommandBuffer commands, const Buffer& from, uint32_t width,
   written.dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT;
   vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                        VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &written, 0, nullptr, 0, nullptr);
-  turn(commands, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+  change_layout(commands, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
   VkBufferImageCopy region{};
   region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
   region.imageExtent = {width, height, 1};
   vkCmdCopyBufferToImage(commands, from.get(), image_.get(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                          1, &region);
-  turn(commands, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+  change_layout(commands, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
 }  // namespace trisect::gpu

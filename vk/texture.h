@@ -1,4 +1,4 @@
-// A frame as a texture: fragments find what lies between its pixels faster than in a buffer.
+// A frame as a texture, which interpolates between pixels faster than a shader that reads a buffer.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,11 @@
 
 namespace trisect::gpu {
 
-// Of four floats a pixel, with linear filtering where the device has it, clamped at its edges.
-// Throws Error if there is no memory for it.
+// Four floats per pixel, filtered linearly where the device can filter such a format, else by the
+// nearest pixel; clamped at the edges. The device must outlive it.
 class Texture {
  public:
+  // width, height: in pixels. Throws Error if there is no memory.
   Texture(const Device& device, uint32_t width, uint32_t height, const std::string& name);
 
   [[nodiscard]] uint32_t width() const { return width_; }
@@ -21,17 +22,18 @@ class Texture {
   [[nodiscard]] VkImageView view() const { return view_.get(); }
   [[nodiscard]] VkSampler sampler() const { return sampler_.get(); }
 
-  // Records a copy of the first width x height vec4s of a buffer to the upper left corner, after
-  // compute shaders wrote them and before fragment shaders read. What was there is lost. Outside of
-  // a render pass.
+  // Records, outside of a render pass, a copy of the first width x height vec4s of a buffer to the
+  // texture's upper left corner, with the barriers between compute shaders that wrote the buffer
+  // and fragment shaders that read the texture. The rest of the texture becomes undefined.
   void copy(VkCommandBuffer commands, const Buffer& from, uint32_t width, uint32_t height) const;
 
  private:
-  void turn(VkCommandBuffer commands, VkImageLayout from, VkImageLayout to) const;
+  // Records a barrier that changes the image's layout.
+  void change_layout(VkCommandBuffer commands, VkImageLayout from, VkImageLayout to) const;
 
   uint32_t width_;
   uint32_t height_;
-  // Declared before the image, so freed after it.
+  // Members are destroyed in reverse order: the image before its memory.
   Owned<VkDeviceMemory, vkFreeMemory> memory_;
   Owned<VkImage, vkDestroyImage> image_;
   Owned<VkImageView, vkDestroyImageView> view_;

@@ -33,9 +33,9 @@ Accel chosen_accel(const AccelRequest& request, Backend backend, std::size_t sub
                                  accel_name(*request.accel)));
   }
   if (*request.accel == Accel::tiles && !tiles_fit) {
-    throw UsageError(
-        fmt::format("--accel tiles: the patches have {} parts, more than the {} that it takes.",
-                    subpatches, kMostSubpatches));
+    throw UsageError(fmt::format(
+        "--accel tiles: the patches have {} subpatches, more than the {} that it takes.",
+        subpatches, kMostSubpatches));
   }
   return *request.accel;
 }

@@ -90,7 +90,7 @@ VulkanTracer::ImageBuffers::ImageBuffers(const gpu::Device& device, uint32_t wid
       // A binding needs a buffer; without AOVs it has one element that no kernel writes.
       aovs(device, (with_aovs ? std::size_t{width} * band_rows : 1) * sizeof(PixelAovs),
            gpu::Memory::device, "AOVs"),
-      queue(device, groups_of_band(width, 0, band_rows).most() * kGroupRays) {}
+      queue(device, groups_of_band(width, 0, band_rows).submit_limit() * kGroupRays) {}
 
 VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, uint32_t width,
                            uint32_t height, const KernelChoice& choice, std::size_t buffer_limit,
@@ -221,7 +221,7 @@ std::optional<double> VulkanTracer::run(std::span<const gpu::Kernel> kernels, Gr
                                         const KeepGoing& keep_going) {
   double gpu_ms = 0.0;
   for (uint32_t group = groups.begin; group < groups.end;) {
-    const uint32_t count = std::min({budget_.groups(), groups.end - group, groups.most()});
+    const uint32_t count = std::min({budget_.groups(), groups.end - group, groups.submit_limit()});
     const std::optional<double> ms =
         image_.queue.run(commands_, kernels, descriptors_, TilePush{{}, group, first_row, rows},
                          count, kGroupRays, keep_going);

@@ -21,7 +21,7 @@ struct GroupRange {
   uint32_t end;
 
   // The most workgroups in one submit: for each of their rays the queue needs a place.
-  [[nodiscard]] uint32_t most() const { return std::min(end - begin, uint32_t{4096}); }
+  [[nodiscard]] uint32_t submit_limit() const { return std::min(end - begin, uint32_t{4096}); }
 };
 
 // The workgroups of a band of the image: `rows` rows from first_row on, a multiple of TILE_SIZE.

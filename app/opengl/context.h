@@ -5,10 +5,11 @@
 
 namespace trisect::opengl {
 
+// What is made while a context is current must be destroyed before it, on the same thread.
 class Context {
  public:
-  // Makes a context current on the calling thread: on EGL's surfaceless platform, or else on its
-  // first device. Throws DeviceError if there is none with OpenGL 4.3.
+  // Makes the context current on the calling thread: that of EGL's surfaceless platform, or if
+  // there is none, of EGL's first device. Throws DeviceError if there is no OpenGL 4.3.
   Context();
   ~Context();
   Context(const Context&) = delete;
@@ -20,7 +21,7 @@ class Context {
   [[nodiscard]] const std::string& driver() const { return driver_; }  // GL_VERSION
 
  private:
-  // EGL's handles; its header stays out of this one.
+  // EGLDisplay and EGLContext, which are pointers: EGL's header would define macros for all users.
   void* display_ = nullptr;
   void* context_ = nullptr;
   std::string device_;

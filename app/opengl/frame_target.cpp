@@ -46,7 +46,7 @@ Framebuffer make_framebuffer(const std::vector<Texture>& textures) {
   return framebuffer;
 }
 
-// An attachment's pixels, rows from below.
+// The pixels of an attachment of the bound framebuffer, rows from the bottom.
 template <typename Pixel>
 std::vector<Pixel> read_attachment(std::size_t attachment, GLenum format, GLenum type,
                                    uint32_t width, uint32_t rows) {
@@ -78,7 +78,7 @@ void FrameTarget::add_depth() {
 }
 
 void FrameTarget::read(uint32_t first_row, uint32_t rows, Frame& frame) const {
-  // Calls `put` with pairs of indices, of a pixel in the framebuffer and in the frame.
+  // Calls `put` for each pixel, with its index in the framebuffer and its index in the frame.
   const auto for_each_pixel = [&](auto&& put) {
     for (uint32_t y = 0; y < rows; ++y) {
       for (uint32_t x = 0; x < width_; ++x) {

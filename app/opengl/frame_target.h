@@ -1,4 +1,5 @@
-// A framebuffer for what fragments write of a frame.
+// A framebuffer for the outputs of fragment shaders that make a frame. A context must be current,
+// the same in all functions.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +12,20 @@ namespace trisect::opengl {
 
 class FrameTarget {
  public:
-  // Colour, and with `aovs` the outputs of PixelAovs as trace_list.frag has them. A context must be
-  // current, and stay so. Throws DeviceError if OpenGL has no such framebuffers.
+  // width, rows: in pixels. It has attachments for the colour and, with aovs, for the outputs of
+  // shaders/fragment_outputs.glsl. Throws DeviceError if OpenGL has no such framebuffers or no
+  // memory.
   FrameTarget(uint32_t width, uint32_t rows, bool aovs);
 
+  // The next draws go into it.
   void bind() const;
 
-  // Adds a depth buffer.
+  // Adds a depth buffer. Throws DeviceError if there is no memory.
   void add_depth();
 
-  // The lowest rows as the frame's from first_row on: OpenGL counts from below.
+  // Reads the framebuffer's lowest `rows` rows into the frame's rows from first_row on. The frame
+  // counts rows from the top, the framebuffer from the bottom: the order of the rows is reversed.
+  // It must be the framebuffer that is bound.
   void read(uint32_t first_row, uint32_t rows, Frame& frame) const;
 
  private:

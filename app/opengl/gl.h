@@ -1,4 +1,4 @@
-// OpenGL's functions, as libOpenGL has them.
+// OpenGL's functions, declared as libOpenGL exports them.
 #pragma once
 
 #ifndef GL_GLEXT_PROTOTYPES

@@ -10,8 +10,8 @@ struct Shader : Owned<[](GLuint name) { glDeleteShader(name); }> {
   using Owned::Owned;
 };
 
-// Throws DeviceError with the compiler's words, on one line, if a shader's or a program's status is
-// not true. get, get_log: glGetShaderiv and glGetShaderInfoLog, or those of programs.
+// Throws DeviceError with the compiler's log, on one line, if a shader's or a program's status is
+// not GL_TRUE. get, get_log: glGetShaderiv and glGetShaderInfoLog, or those of programs.
 template <typename Get, typename GetLog>
 void expect_status(GLuint name, GLenum status, Get get, GetLog get_log, const char* what) {
   GLint done = GL_FALSE;

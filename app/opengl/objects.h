@@ -1,4 +1,5 @@
-// OpenGL's programs and buffers, owned. A context must be current.
+// OpenGL's objects, owned. A context must be current in all functions, destructors too: that in
+// which the object was made.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +12,15 @@
 
 namespace trisect::opengl {
 
-// GL_RENDERER.
+// The device's name: GL_RENDERER.
 std::string device_name();
 
-// Throws DeviceError if OpenGL has reported an error since it was asked last. `what`: what was
-// done.
+// Throws DeviceError if OpenGL has recorded an error since the last call. what: what was done, for
+// the message.
 void check(const std::string& what);
 
-// An object's name, freed by `Free` at the end.
+// The name (number) of an object, which Free deletes with its owner; 0 is none. Move assignment
+// swaps: what this owner held is deleted with the other one.
 template <void (*Free)(GLuint)>
 class Owned {
  public:
@@ -64,22 +66,27 @@ using VertexArray = Owned<free_vertex_array>;
 VertexArray make_vertex_array();
 
 struct Stage {
-  GLenum kind;
-  const char* text;
+  GLenum kind;       // such as GL_VERTEX_SHADER
+  const char* text;  // GLSL without #version
 };
 
-// Compiles and links; `head` comes before every stage's text, the version in it. Throws DeviceError
-// with the compiler's words.
+// Compiles and links a program. head: #version and definitions that go ahead of every stage's text.
+// Throws DeviceError with the compiler's message.
 Program make_program(const std::string& head, const std::vector<Stage>& stages);
 
 class Buffer {
  public:
-  // Bytes of zero. Throws DeviceError if there is no memory for them.
+  // size: in bytes, which are 0 at first. name: for the message. Throws DeviceError if there is no
+  // memory.
   Buffer(std::size_t size, const std::string& name);
 
+  // Copies the bytes to the buffer's beginning.
   void write(std::span<const std::byte> bytes);
+  // Copies the buffer's bytes from `offset` on, and waits for commands that write them.
   void read(std::size_t offset, std::span<std::byte> bytes) const;
+  // Sets all bytes to 0.
   void clear();
+  // Binds it to an indexed target, such as GL_SHADER_STORAGE_BUFFER.
   void bind(GLenum target, GLuint binding) const;
 
  private:

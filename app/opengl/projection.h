@@ -1,4 +1,4 @@
-// The camera as OpenGL's clip volume.
+// The camera as a matrix for OpenGL.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -7,8 +7,8 @@
 
 namespace trisect::opengl {
 
-// View and projection of points relative to the eye, from the rays that the other kernels have: its
-// inverse takes the clip volume's near face to the image's near points.
+// The view-projection matrix for points relative to the eye, derived from the rays of `params`: its
+// inverse maps the near face of the clip volume to the near points of the image.
 glm::dmat4 view_projection(const TraceParams& params);
 
 }  // namespace trisect::opengl

@@ -1,5 +1,5 @@
-// The standard practice beside which the tracers are measured: the curved triangles divided by
-// OpenGL's tessellation shaders and drawn.
+// The usual way to draw curved triangles, against which the tracers are measured: tessellated by
+// OpenGL's tessellation shaders and rasterised.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,17 @@ namespace trisect::opengl {
 
 class Rasterizer {
  public:
-  // Uploads the scene and compiles the shaders for it; a context must be current, and stay so.
-  // level: of tessellation, 1 to 64, what OpenGL promises. params: as Tracer::render has them.
-  // Throws DeviceError if OpenGL cannot hold the scene or the image.
+  // Uploads the scene and compiles the shaders for it. A context must be current, and must stay so
+  // for the lifetime of the object. level: of tessellation, 1 to 64, which is what OpenGL
+  // guarantees. params: of all frames. aovs: frames have PixelAovs too. Throws DeviceError if
+  // OpenGL cannot hold the scene or the image.
   Rasterizer(const BakedScene& scene, const TraceParams& params, uint32_t level, bool aovs);
 
-  // Milliseconds by the host's clock, until the image is drawn but not yet read.
+  // Renders into `frame`. Returns the milliseconds by the host's clock from the first command until
+  // the image is drawn, without the time to read it back.
   double render(Frame& frame);
 
-  // Of the scene's buffer.
+  // Bytes of the scene's buffer.
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
  private:

@@ -1,5 +1,4 @@
-// What the shaders of shaders/ expect ahead of their text, as OpenGL has no specialisation
-// constants.
+// What goes ahead of a shader's text for OpenGL, whose GLSL has no specialisation constants.
 #pragma once
 
 #include <string>
@@ -9,7 +8,8 @@
 
 namespace trisect::opengl {
 
-// The version, and the values of frame_buffers.glsl's constants. shadows: of the rays for them.
+// #version, and definitions of the values of the constants in shaders/frame_buffers.glsl. shadows:
+// whether the shader traces shadow rays instead of camera rays.
 std::string shader_head(const BakedScene& scene, const KernelChoice& choice, bool shadows);
 
 }  // namespace trisect::opengl

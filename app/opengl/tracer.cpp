@@ -27,15 +27,15 @@ std::size_t storage_limit() {
   return static_cast<std::size_t>(limit);
 }
 
-// Rows of the image in memory at a time. The fragment path keeps a paused ray for each pixel, as
-// large as a pixel's outputs.
+// Rows of the image that the buffers hold at a time. The fragment path has a PausedRay for each
+// pixel, which is as large as a pixel's AOVs: its bands are those of images with AOVs.
 uint32_t band_rows(GlPath path, std::size_t limit, uint32_t width, uint32_t height, bool aovs) {
   static_assert(sizeof(PausedRay) == sizeof(PixelAovs));
-  GLint most = 0;
-  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-  if (path == GlPath::fragment && (static_cast<GLint>(width) > most)) {
+  GLint most_pixels = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most_pixels);
+  if (path == GlPath::fragment && (static_cast<GLint>(width) > most_pixels)) {
     throw DeviceError(fmt::format("device {} has framebuffers of at most {} pixels a side.",
-                                  device_name(), most));
+                                  device_name(), most_pixels));
   }
   return rows_in_a_band(device_name(), limit, width, height, aovs || path == GlPath::fragment);
 }
@@ -65,13 +65,13 @@ Tracer::Tracer(const BakedScene& scene, uint32_t width, uint32_t height, const K
       buffer_limit_(std::min(buffer_limit, storage_limit())),
       band_rows_(band_rows(path, buffer_limit_, width, height, choice.writes_aovs())),
       triangles_(triangle_bytes(device_name(), buffer_limit_, scene), "triangles"),
-      subpatches_(subpatch_bytes(device_name(), buffer_limit_, scene), "cages"),
+      subpatches_(subpatch_bytes(device_name(), buffer_limit_, scene), "subpatch bounds"),
       params_(sizeof(TraceParams), "trace parameters"),
       push_(sizeof(TilePush), "push constants"),
       queued_(sizeof(QueueState), "number of paused rays"),
       paused_(path == GlPath::compute
-                  ? std::size_t{2} * groups_of_band(width, 0, band_rows_).most() * kGroupRays *
-                        sizeof(PausedRay)
+                  ? std::size_t{2} * groups_of_band(width, 0, band_rows_).submit_limit() *
+                        kGroupRays * sizeof(PausedRay)
                   : std::size_t{width} * band_rows_ * sizeof(PausedRay),
               "paused rays"),
       program_(program_for(scene, choice, path)),
@@ -108,7 +108,7 @@ std::optional<FrameTime> Tracer::render(const TraceParams& params, Frame& frame,
     throw std::logic_error("the trace parameters are not for this tracer's image size");
   }
   frame.resize(width_, height_, aovs_);
-  // Of a frame that was stopped some may be left.
+  // A frame that was stopped may have left a count.
   bytes_read_ = 0;
 
   const Stopwatch watch;
@@ -148,7 +148,7 @@ uint32_t Tracer::submit(const TilePush& push, const std::function<void()>& work)
   work();
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
   QueueState state{};
-  // Waits for the work.
+  // Reading the buffer waits for the work.
   queued_.read(0, std::as_writable_bytes(std::span(&state, 1)));
   bytes_read_ += bytes_in(state);
   return state.queued;
@@ -160,10 +160,10 @@ std::optional<double> Tracer::compute_band(const Program& program, uint32_t firs
   glUseProgram(program.get());
   double total_ms = 0.0;
   for (uint32_t group = groups.begin; group < groups.end;) {
-    const uint32_t count = std::min({budget_.groups(), groups.end - group, groups.most()});
+    const uint32_t count = std::min({budget_.groups(), groups.end - group, groups.submit_limit()});
     const Stopwatch watch;
     run_until_finished(
-        RayQueue::kSteps, groups.most() * kGroupRays,
+        RayQueue::kSteps, groups.submit_limit() * kGroupRays,
         [&](const QueuePush& queue) -> std::optional<uint32_t> {
           const uint32_t submitted =
               queue.pass == 0 ? count : (queue.resumed + kGroupRays - 1) / kGroupRays;
@@ -180,7 +180,7 @@ std::optional<double> Tracer::compute_band(const Program& program, uint32_t firs
 
 std::optional<double> Tracer::draw_band(const TraceParams& params, uint32_t first_row,
                                         uint32_t rows, const KeepGoing& keep_going) {
-  // OpenGL counts rows from below: the band's lowest one is this.
+  // The band's lowest row, counted from the bottom of the image as OpenGL does.
   const uint32_t lowest = height_ - first_row - rows;
   glUseProgram(program_.get());
   target_->bind();

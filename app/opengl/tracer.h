@@ -20,23 +20,28 @@ namespace trisect::opengl {
 
 class Tracer {
  public:
-  // Uploads the scene and compiles the shaders for it; a context must be current, and stay so.
-  // width, height: pixels of the frames. buffer_limit: the most bytes a buffer may have, if less
-  // than OpenGL's own limit. Throws DeviceError if OpenGL cannot hold the scene or the image.
+  // Uploads the scene and compiles the shaders for it. A context must be current, and must stay so
+  // for the lifetime of the object. width, height: of all frames, in pixels. choice: its
+  // acceleration is Accel::list, and GlPath::fragment has no shadows. buffer_limit: the most bytes
+  // of a buffer, if less than OpenGL's own limit. Throws DeviceError if OpenGL cannot hold the
+  // scene or the image.
   Tracer(const BakedScene& scene, uint32_t width, uint32_t height, const KernelChoice& choice,
          GlPath path, std::size_t buffer_limit = kNoLimit);
 
-  // As VulkanTracer::render; gpu_ms is by the host's clock.
+  // As VulkanTracer::render(), but params.width and .height must be those of the constructor, and
+  // FrameTime::gpu_ms is measured by the host's clock.
   std::optional<FrameTime> render(const TraceParams& params, Frame& frame,
                                   const KeepGoing& keep_going = {});
 
+  // What the constructor took for the upload, by the host's clock.
   [[nodiscard]] double upload_ms() const { return upload_ms_; }
 
  private:
   void bind() const;
-  // Runs `work` with these push constants and returns how many rays have paused.
+  // Calls `work`, which draws or dispatches, with these push constants. Returns how many rays
+  // paused.
   uint32_t submit(const TilePush& push, const std::function<void()>& work);
-  // Milliseconds; nothing if keep_going said stop.
+  // These return milliseconds, or nothing if keep_going stopped them.
   std::optional<double> compute_band(const Program& program, uint32_t first_row, uint32_t rows,
                                      const KeepGoing& keep_going);
   std::optional<double> draw_band(const TraceParams& params, uint32_t first_row, uint32_t rows,
@@ -57,13 +62,13 @@ class Tracer {
   Buffer push_;
   Buffer queued_;
   uint64_t bytes_read_ = 0;
-  Buffer paused_;  // compute: RayQueue's two halves; fragment: a place for each pixel
+  Buffer paused_;  // PausedRays. Compute: two halves as in RayQueue; fragment: one for each pixel
   Program program_;
   std::optional<Program> shadow_program_;
-  // The compute path's outputs.
+  // The outputs of the compute path.
   std::optional<Buffer> colors_;
   std::optional<Buffer> aovs_buffer_;
-  // The fragment path's.
+  // The outputs of the fragment path.
   std::optional<FrameTarget> target_;
   VertexArray vertices_;
   double upload_ms_ = 0.0;

@@ -1,5 +1,5 @@
-// The compiled kernel, read back with SPIRV-Cross: its buffers lie as C++ lays them out, and its
-// bindings are those that app/buffers/kernels.h gives the Vulkan layer.
+// The compiled kernels, read with SPIRV-Cross: the members of their buffers have the offsets that
+// C++ gives them, and their bindings are those of the interfaces in app/buffers/kernels.h.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -8,6 +8,7 @@
 #include <span>
 #include <spirv_cross/spirv_cross.hpp>
 #include <string>
+#include <utility>
 
 #include "app/buffers/kernels.h"
 
@@ -29,7 +30,8 @@ Offsets offsets_of(const Compiler& compiler, const spirv_cross::SPIRType& type) 
   return offsets;
 }
 
-// The structure that a block holds as its only member, and the size of one, with array padding.
+// The structure that is a block's only member (of an array: its elements): the offsets of its
+// members, and its size with the padding between elements.
 struct Held {
   Offsets offsets;
   std::size_t stride;
@@ -40,7 +42,7 @@ Held held_by(const Compiler& compiler, const spirv_cross::Resource& block) {
   const std::size_t stride = inner.array.empty()
                                  ? compiler.get_declared_struct_size(inner)
                                  : compiler.type_struct_member_array_stride(outer, 0);
-  // For an array of vec4 the element is no structure.
+  // The elements of an array of vec4 are no structures.
   return {inner.basetype == spirv_cross::SPIRType::Struct ? offsets_of(compiler, inner) : Offsets{},
           stride};
 }
@@ -54,7 +56,7 @@ const spirv_cross::Resource& with_binding(
   throw std::runtime_error("no resource with binding " + std::to_string(binding));
 }
 
-// What a kernel has bound there.
+// The structure in the buffer that a kernel has at this binding.
 Held bound_to(uint32_t binding, std::span<const uint32_t> spirv = spirv_of("trace_list")) {
   const Compiler compiler = reflect(spirv);
   const auto resources = compiler.get_shader_resources();
@@ -273,6 +275,30 @@ TEST(Layout, InterfaceIsTheKernels) {
                                                         {CONSTANT_DIVIDED, "DIVIDED"},
                                                         {CONSTANT_NONSMOOTH, "MAY_BE_NONSMOOTH"},
                                                         {CONSTANT_SHADOWS, "SHADOWS"}}));
+}
+
+// No kernel of any interface binds a buffer, or takes push constants, that its interface lacks.
+TEST(Layout, EveryKernelBindsWhatItsInterfaceHas) {
+  for (const KernelSource& source : kernel_sources()) {
+    const gpu::KernelInterface interface = interface_of(source.name);
+    std::set<std::pair<uint32_t, VkDescriptorType>> offered;
+    for (const gpu::Binding& binding : interface.bindings) {
+      offered.insert({binding.binding, binding.type});
+    }
+    const Compiler kernel = reflect(source.spirv);
+    const auto resources = kernel.get_shader_resources();
+    const auto expect_offered = [&](const auto& buffers, VkDescriptorType type) {
+      for (const auto& buffer : buffers) {
+        const uint32_t binding = kernel.get_decoration(buffer.id, spv::DecorationBinding);
+        EXPECT_TRUE(offered.count({binding, type}) > 0) << source.name << " binding " << binding;
+      }
+    };
+    expect_offered(resources.uniform_buffers, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER);
+    expect_offered(resources.storage_buffers, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+    for (const auto& push : resources.push_constant_buffers) {
+      EXPECT_EQ(held_by(kernel, push).stride, interface.push_size) << source.name;
+    }
+  }
 }
 
 }  // namespace

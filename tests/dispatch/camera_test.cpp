@@ -28,7 +28,7 @@ TraceParams rays(const Camera& camera, uint32_t width, uint32_t height,
   return params;
 }
 
-// The rays' vectors are rounded to single precision.
+// The vectors of TraceParams are rounded to single precision.
 constexpr double kRounding = 3e-7;
 
 TEST(Camera, LooksAtItsTarget) {
@@ -44,8 +44,8 @@ TEST(Camera, RowZeroIsOnTopAndColumnZeroOnTheLeft) {
   const dvec3 top_left = direction(params, 0.0, 0.0);
   EXPECT_LT(top_left.x, 0.0);
   EXPECT_GT(top_left.y, 0.0);
-  // The field of view is vertical: the middle of the top row is 45 degrees up, the left one twice
-  // as far off.
+  // The field of view is vertical: the middle of the top row is 45 degrees up, and the middle of
+  // the left column is twice as far from the axis.
   const double diagonal = std::sqrt(0.5);
   EXPECT_LT(glm::distance(direction(params, 100.0, 0.0), dvec3(0.0, diagonal, -diagonal)),
             kRounding);

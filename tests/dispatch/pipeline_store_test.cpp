@@ -1,4 +1,4 @@
-// Pipelines that are kept between runs: found again, and never believed when they are damaged.
+// Pipelines are stored between runs and found again; a damaged file is not used.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -30,7 +30,7 @@ std::vector<fs::path> files_in(const fs::path& folder) {
 
 class Pipelines : public test::GpuTest {
  protected:
-  // What a program does that makes a kernel; returns what the device then knows.
+  // Makes a device, its store and a kernel, as a program does. Returns the device's pipeline data.
   std::vector<std::byte> run() {
     const gpu::Device device(test::validated_instance(), "");
     const PipelineStore store(device, folder_.path());
@@ -46,7 +46,7 @@ TEST_F(Pipelines, AreKeptUnderTheNameOfTheDevice) {
   const std::vector<fs::path> files = files_in(folder_.path());
   ASSERT_EQ(files.size(), 1U);
   EXPECT_EQ(files[0].filename().string(), "pipelines-" + test::validated_device().pipeline_key());
-  // A checksum of eight bytes ahead of them.
+  // A checksum of eight bytes comes first.
   EXPECT_EQ(test::content_of(files[0]).size(), data.size() + 8);
   const fs::file_time_type written = fs::last_write_time(files[0]);
   run();
@@ -76,13 +76,13 @@ TEST_F(Pipelines, OfARunAreInTheUsersCacheOrNowhere) {
       "render", test::asset_path("sphere-20"), "--size", "8x8", "-o", folder_ / "a.png"};
   ASSERT_EQ(test::run_trisect(render, {cache}).exit_code, 0);
   EXPECT_TRUE(fs::is_directory(folder_.path() / "trisect"));
-  // A file where the folder would be.
+  // A file of that name: the folder cannot be made.
   fs::remove_all(folder_.path() / "trisect");
   write_to(folder_.path() / "trisect", "");
   const test::ProgramRun run = test::run_trisect(render, {cache});
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_EQ(run.err, "");
-  // Relative ones do not count. For Mesa they do: it gets a folder of its own.
+  // A relative XDG_CACHE_HOME is ignored. Mesa does not ignore it, so it gets a folder of its own.
   const std::string mesa = "MESA_SHADER_CACHE_DIR=" + (folder_ / "mesa").string();
   EXPECT_EQ(test::run_trisect(render, {"XDG_CACHE_HOME=a", "HOME=", mesa}).exit_code, 0);
   EXPECT_FALSE(fs::exists("a/trisect"));

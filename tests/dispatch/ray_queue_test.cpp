@@ -1,4 +1,4 @@
-// Rays that pause, however often, meet what they would have met at one go.
+// Rays have the same hits however often they pause.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -25,7 +25,8 @@ std::vector<CastHit> cast(const BakedScene& scene, const TraceSettings& settings
 }
 
 TEST_F(Queue, PausesLoseNothing) {
-  // Patches that are divided deep (nodes are paused in), groups of cages that are skipped.
+  // In the height shell patches are divided: rays pause within subpatches, and skip those of a
+  // patch whose ball they miss.
   const Mesh mesh = test::load_asset("sphere-20");
   const BakedScene scene = bake_with_subpatches(mesh, {SURFACE_PHONG, 0.65, SHELL_HEIGHT});
   ASSERT_TRUE(has_divided_patches(scene));
@@ -48,7 +49,8 @@ TEST_F(Queue, RaysThatGoByATreeMeetTheSame) {
   settings.solver = SOLVER_ROBUST;
   std::mt19937_64 random(6);
   std::vector<CastRay> rays = stress::rays_at_surface(scene, random, 500);
-  // Along the axes too, whose slabs are met nowhere or everywhere.
+  // Some along the axes: they are parallel to slabs of the boxes, which they meet nowhere or
+  // everywhere.
   for (CastRay& ray : rays) {
     if (random() % 4 > 0) continue;
     ray.direction = vec4(0.0F);
@@ -60,7 +62,7 @@ TEST_F(Queue, RaysThatGoByATreeMeetTheSame) {
     const std::vector<CastHit> hits = cast(scene, settings, rays, steps);
     ASSERT_EQ(hits.size(), expected.size());
     for (std::size_t i = 0; i < hits.size(); ++i) {
-      // All but the work done.
+      // All members but the counts of work.
       EXPECT_EQ(std::memcmp(&hits[i], &expected[i], offsetof(CastHit, evaluations)), 0)
           << i << " in passes of " << steps;
     }
@@ -68,7 +70,7 @@ TEST_F(Queue, RaysThatGoByATreeMeetTheSame) {
 }
 
 TEST_F(Queue, TheBisectionSeesEveryTriangleOnceInSeveralPasses) {
-  // At rank 60 a pass takes 1015 triangles: here are two passes.
+  // At rank 60 a pass takes 1015 triangles, so the 1280 of this model take two passes.
   const Mesh mesh = stress::sphere(3);
   const BakedScene scene = bake(mesh, {SURFACE_FLAT, 0.0});
   ASSERT_EQ(scene.triangles.size(), 1280U);

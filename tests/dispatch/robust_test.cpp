@@ -1,4 +1,4 @@
-// The robust solver in single precision where its own roundings decide.
+// The robust solver in single precision, on rays where rounding errors could change the result.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,8 +12,8 @@
 namespace trisect {
 namespace {
 
-// Pixels of a row of an image of 800x600 of a model's sphere surface, each against the first of the
-// oracle's roots.
+// Expects that the kernel finds the oracle's first root in the pixels `first` to `last` of a row of
+// an image of 800x600 pixels of a model's sphere surface.
 void expect_first_roots(const char* asset, uint shell, uint row, uint first, uint last) {
   const Mesh mesh = test::load_asset(asset);
   const BakedScene scene = bake_with_subpatches(mesh, {SURFACE_SPHERE, 0.0, shell});
@@ -32,24 +32,25 @@ void expect_first_roots(const char* asset, uint shell, uint row, uint first, uin
     if (!answer.decidable) continue;
     ASSERT_EQ(hit.triangle != NO_TRIANGLE, answer.hit) << x;
     if (!answer.hit) continue;
-    // Across the surface some roundings.
+    // The distance of the kernel's hit from the surface: a few rounding errors.
     const double across = (static_cast<double>(hit.z) - answer.root.t - asked.anchor_distance) *
                           std::abs(glm::dot(answer.root.normal, asked.ray.direction));
     EXPECT_LT(std::abs(across), 2e-6 * scene.radius) << x << " in shell " << shell;
   }
 }
 
-// A ray that grazes a patch with a vertex at the scene's origin, where the first vertex's roundings
-// are nothing: both of its roots lie on a bump of a hundred-thousandth of the model's size, the
-// second 0.013 behind the first. Its neighbours are for company.
+// One of these rays grazes a patch with a vertex at the scene's origin, whose own rounding errors
+// are 0 and tell nothing of those of the other vertices. Both of its roots lie on a bump as high as
+// a hundred-thousandth of the model's size, the second 0.013 behind the first. The other rays are
+// its neighbours.
 TEST(Roundings, MeetsTheFirstOfTwoCloseRootsNextToTheOrigin) {
   for (const uint shell : {SHELL_NORMAL, SHELL_HEIGHT}) {
     expect_first_roots("saddle", shell, 286, 430, 449);
   }
 }
 
-// The first root lies beside the curve on which lines begin to miss a vertex's sphere, where sigma
-// is off by some grains.
+// The first root lies next to the curve where the lines of the shell become tangent to a vertex's
+// sphere and beyond which they miss it. Near it sigma is off by several tolerances.
 TEST(Roundings, MeetsARootBesideWhereLinesBeginToMissASphere) {
   expect_first_roots("teapot", SHELL_NORMAL, 216, 498, 504);
 }

@@ -19,8 +19,8 @@ TEST(SubmitBudget, GrowsByDoublingUntilTheBudgetIsReached) {
 }
 
 TEST(SubmitBudget, IsSizedByTheDearestPartOfTheImage) {
-  // A few submits of cheap sky after a dear model: the next rows may be the model again, which then
-  // takes no more than about twice its time.
+  // A few cheap submits of sky follow the expensive model. The next rows may be the model again: a
+  // submit of them then takes at most about twice the budget.
   SubmitBudget budget;
   budget.record(100, 200.0);
   for (int i = 0; i < 2; ++i) budget.record(1000, 1.0);
@@ -35,7 +35,7 @@ TEST(SubmitBudget, ForgetsWhatHeldOneSubmitUp) {
   const uint32_t before = budget.groups();
   budget.record(16, 500.0);
   EXPECT_LT(budget.groups(), 10U);
-  // Within one frame of 800x600.
+  // 800 x 600 pixels: it recovers within one frame.
   uint32_t spent = 0;
   while (budget.groups() < before) {
     const uint32_t groups = budget.groups();

@@ -1,5 +1,5 @@
-// Small frames kept in the repository, against which every change is held. scripts/update-golden.sh
-// makes them anew, for a change that is meant to change them.
+// Frames are compared with small frames in the repository. scripts/update-golden.sh makes these
+// anew, for a change that is meant to change the pictures.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,8 @@ Frame fresh(const Golden& golden) {
   return test::trace(scene, test::framed(mesh, scene, 48, 36, 24));
 }
 
-// What is wrong with a frame, or nothing. `kept` is from a file, its colours linear light.
+// A message about the first difference of a frame from a golden one, or nothing. `kept` is from a
+// file, so its colours are linear light.
 std::string complaint(const Frame& kept, Frame frame) {
   for (vec4& color : frame.colors) {
     for (int k = 0; k < 3; ++k) color[k] = linear_from_srgb(color[k]);
@@ -39,12 +40,13 @@ std::string complaint(const Frame& kept, Frame frame) {
   if (!d.same_size) return "size";
   if (d.hit_mismatches > 0) return "hits";
   if (d.patch_mismatches > 0) return "patches";
-  // Another driver's roundings: single precision at a depth of up to 12, and at Rank 24 a march
-  // that ends where the field's rounding, some 1e-6, decides the last steps.
+  // Another driver may round differently: in single precision at depths of up to 12, and at rank 24
+  // the bisection's last steps depend on the field's rounding errors of about 1e-6.
   if (!(d.depth <= 2e-5)) return "depth";
   if (!(d.weights <= 2e-4)) return "weights";
   if (!(d.normal_degrees <= 0.02)) return "normals";
-  // One step of 8 bits: on the flank of a grid line a depth of 2e-5 moves the colour by 1e-3.
+  // One of 256 steps of a colour: at the border of a grid line a change of depth of 2e-5 changes
+  // the colour by 1e-3.
   if (!(d.color <= 4e-3)) return "colour";
   return "";
 }
@@ -68,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Assets, GoldenFrame,
                            return name;
                          });
 
-// The comparison itself: one pixel off, in whatever way, is noticed.
+// The comparison notices a difference of any kind in a single pixel.
 class GoldenComparison : public test::GpuTest {};
 
 TEST_F(GoldenComparison, NoticesOnePixel) {

@@ -1,5 +1,4 @@
-// Shadows: what is between the light and a point of the curved surface, the surface itself among
-// it.
+// Shadows, which the curved surface casts on itself and on others.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -61,7 +60,7 @@ Frame trace(const Lit& lit, const KernelChoice& choice, std::size_t buffer_limit
   return frame;
 }
 
-// The light gives nothing there.
+// Whether a pixel shows the surface with ambient light alone.
 bool is_dark(const vec4& color) {
   return color.w > 0.0F && color.x == 0.25F && color.y == 0.25F && color.z == 0.25F;
 }
@@ -119,8 +118,8 @@ TEST_F(Shadows, FallInEveryBandOfAnImage) {
                           trace(lit, with_shadows(Accel::tiles), limit)));
 }
 
-// Only colours differ from a frame without: shadows need the other outputs, but whoever does not
-// ask for them does not get them.
+// Nothing but the colours changes. Shadows need the AOVs of the camera rays, but a frame without
+// AOVs does not get them.
 TEST_F(Shadows, ChangeNothingElse) {
   const Lit lit = lit_from_side(test::load_asset("torus"), kPhong, 67, 51);
   const Frame plain = trace(lit, {SOLVER_ROBUST, true, false, Accel::tiles, false});
@@ -138,7 +137,7 @@ TEST_F(Shadows, ChangeNothingElse) {
   }
 }
 
-// From the very point that the kernel met, in double precision.
+// The oracle traces shadow rays in double precision from the points that the kernel hit.
 TEST_F(Shadows, AreWhereTheOracleHasThem) {
   for (const char* name : {"torus", "relief", "teapot"}) {
     const Lit lit = lit_from_side(test::load_asset(name), kPhong, 133, 99);
@@ -160,7 +159,7 @@ TEST_F(Shadows, AreWhereTheOracleHasThem) {
           ++undecided;
           continue;
         }
-        // Where the light comes from below the shading normal's horizon a pixel is dark anyway.
+        // Where the shading normal faces away from the light, the pixel is dark without a shadow.
         const dvec3 shading(met.normal_z);
         const double seen = glm::dot(shading, view) > 0.0 ? -1.0 : 1.0;
         const bool dark = answer.hit || seen * glm::dot(shading, dvec3(lit.params.light)) <= 0.0;
@@ -168,12 +167,13 @@ TEST_F(Shadows, AreWhereTheOracleHasThem) {
       }
     }
     EXPECT_EQ(wrong, 0U) << name;
-    // Rays that leave along the surface, where it turns away from the light.
+    // The oracle cannot decide rays that leave almost along the surface, near the terminator.
     EXPECT_LT(undecided, frame.hits() / 100) << name;
   }
 }
 
-// No length in it is absolute. Powers of two change no digit, other factors round vertices anew.
+// No tolerance is an absolute length. Scaling by a power of two changes no digit; scaling by
+// another factor rounds the vertices differently.
 TEST_F(Shadows, AreTheSameAtEveryScale) {
   const Mesh mesh = test::load_asset("teapot");
   const Frame frame = trace(lit_from_side(mesh, kPhong, 133, 99), with_shadows(Accel::tiles));
@@ -181,16 +181,18 @@ TEST_F(Shadows, AreTheSameAtEveryScale) {
     Mesh scaled = mesh;
     for (dvec3& position : scaled.positions) position *= scale;
     const Frame other = trace(lit_from_side(scaled, kPhong, 133, 99), with_shadows(Accel::tiles));
-    // A pixel on the border of a shadow or two.
+    // One or two pixels on the border of a shadow.
     EXPECT_LE(count_different(frame, other), scale == 1.0 / 1024.0 ? 0U : 2U) << scale;
   }
 }
 
-// The terminator, where flat triangles with smooth normals put pixels into shadow that the surface
-// which they stand for shows to the light (Hanika 2021, "Hacking the shadow terminator").
+// Near the terminator flat triangles with smooth shading normals cast shadows on pixels that are
+// lit on the curved surface which the triangles approximate (Hanika 2021, "Hacking the shadow
+// terminator").
 class Terminator : public Shadows {
  protected:
-  // Pixels that are dark though the light reaches the true surface there: `lit(pixel)`.
+  // The number of pixels that are dark though lit_there(lit, pixel) says that the light reaches the
+  // true surface there.
   template <typename LitThere>
   static std::size_t count_wrong(const std::string& model, const SurfaceChoice& choice,
                                  const LitThere& lit_there) {
@@ -206,7 +208,7 @@ class Terminator : public Shadows {
   }
 };
 
-// By more than the roundings of what is compared.
+// A cosine, or a difference of brightness, far above the rounding errors of what is compared.
 constexpr double kClearlyLit = 0.02;
 
 TEST_F(Terminator, OfASphere) {
@@ -221,7 +223,8 @@ TEST_F(Terminator, OfASphere) {
     const dvec3 point = ray.origin + ray.direction * (middle - std::sqrt(square));
     return glm::dot(point, dvec3(lit.params.light)) > kClearlyLit;
   };
-  // About a seventh of the pixels, and a hundredth; the blended spheres are the sphere.
+  // About a seventh of the pixels with flat triangles, and a hundredth with Phong tessellation. The
+  // sphere surface is the sphere itself.
   const std::size_t flat = count_wrong("sphere-20", kFlat, lit_there);
   EXPECT_GT(flat, 5000U);
   EXPECT_LT(count_wrong("sphere-20", kPhong, lit_there), flat / 10);
@@ -229,7 +232,7 @@ TEST_F(Terminator, OfASphere) {
 }
 
 TEST_F(Terminator, OfATeapot) {
-  // What 4000 curved triangles show.
+  // The reference has 4000 curved triangles.
   const std::string path = std::string(TRISECT_GENERATED_ASSETS) + "/teapot-4000.obj";
   const Mesh mesh = build_mesh(read_obj(path), path, std::nullopt).mesh;
   const Frame fine = trace(lit_from_side(mesh, kPhong, 400, 300), with_shadows(Accel::bvh));
@@ -237,7 +240,7 @@ TEST_F(Terminator, OfATeapot) {
     return fine.colors[i].w > 0.0F && !is_dark(fine.colors[i]) &&
            fine.colors[i].x > 0.25F + static_cast<float>(kClearlyLit);
   };
-  // Some of them are not the terminator's: 304 triangles are not quite the shape of 4000.
+  // Some of the wrong pixels have another cause: 304 triangles do not have quite the shape of 4000.
   EXPECT_LT(count_wrong("teapot", kPhong, lit_there), count_wrong("teapot", kFlat, lit_there) / 2);
 }
 

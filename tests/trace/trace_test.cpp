@@ -1,4 +1,4 @@
-// The kernel's frames against analysis, and against each other.
+// The kernel's frames are compared with analytic solutions and with each other.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,8 +31,8 @@ PixelRay pixel_ray(const TraceParams& params, uint32_t x, uint32_t y) {
   return {dvec3(params.eye), glm::normalize(to_near)};
 }
 
-// Where a ray meets a triangle from its front: the distance, and the smallest weight, negative
-// outside.
+// Where a ray meets the plane of a triangle from the front: the distance, and the smallest of the
+// barycentric weights, which is negative outside of the triangle.
 struct Meeting {
   double distance;
   double inside;
@@ -67,7 +67,8 @@ TEST_F(Trace, FlatIsThePlainTriangle) {
         bool on_edge = false;
         for (const Triangle& tri : scene.triangles) {
           const Meeting m = meet(ray, tri);
-          // Single precision moves a weight by some 1e-6; there hit or miss cannot be told.
+          // Single precision changes a weight by about 1e-6: so near an edge both hit and miss are
+          // right.
           on_edge = on_edge || std::abs(m.inside) < 1e-5;
           if (m.inside >= 0.0 && m.distance < nearest) nearest = m.distance;
         }
@@ -79,8 +80,8 @@ TEST_F(Trace, FlatIsThePlainTriangle) {
         const bool hit = std::isfinite(nearest);
         hits += hit ? 1 : 0;
         ASSERT_EQ(aov.triangle != NO_TRIANGLE, hit) << name << " " << x << "," << y;
-        // Rounding by 6e-8 of coordinates as large as the depth, magnified where the ray is oblique
-        // to the triangle: by up to 100 at the flattest that a pixel of this image sees.
+        // Coordinates as large as the depth are rounded by 6e-8 of it. Where the ray is oblique to
+        // the triangle that error is magnified, in this image by up to 100.
         if (!hit) continue;
         ASSERT_NEAR(static_cast<double>(aov.normal_z.w), nearest, 1e-5 * nearest) << name;
       }
@@ -91,7 +92,7 @@ TEST_F(Trace, FlatIsThePlainTriangle) {
 }
 
 TEST_F(Trace, CurvedSurfacesWithFlatNormalsAreFlat) {
-  // At Rank 24 the march's last step is below single precision.
+  // At rank 24 the bisection's last step is smaller than the rounding errors of single precision.
   const Mesh mesh = test::load_asset("cube");
   const BakedScene flat = bake(mesh, {SURFACE_FLAT, 0.0});
   const TraceSettings settings = test::framed(mesh, flat, 160, 120, 24);
@@ -100,10 +101,11 @@ TEST_F(Trace, CurvedSurfacesWithFlatNormalsAreFlat) {
     const Frame frame = test::trace(bake(mesh, {surface, 0.65, SHELL_HEIGHT}), settings);
     const test::FrameDifference d = test::difference(expected, frame);
     ASSERT_TRUE(d.same_size);
-    // A pixel whose ray runs along an edge within rounding may fall to either side.
+    // A ray that meets an edge up to rounding errors may hit either triangle.
     EXPECT_LE(d.hit_mismatches, 2U) << "surface " << surface;
     EXPECT_LE(d.patch_mismatches, 2U) << "surface " << surface;
-    // The listing accepts a field of up to minDelta, 1e-4, at rays as oblique as 1 to 4.
+    // The bisection accepts points where the field is up to minDelta, 1e-4; along rays whose angle
+    // to the surface has a sine of 1/4 that is four times as far.
     EXPECT_LE(d.depth, 4e-4) << "surface " << surface;
     EXPECT_LE(d.normal_degrees, 0.01) << "surface " << surface;
   }
@@ -113,16 +115,17 @@ TEST_F(Trace, AlphaZeroIsFlat) {
   const Mesh mesh = test::load_asset("relief");
   const BakedScene flat = bake(mesh, {SURFACE_FLAT, 0.0});
   TraceSettings settings = test::framed(mesh, flat, 160, 120, 24);
-  // From straight in front, where no vertex normal faces away: the listing steers by those.
+  // Seen from straight in front, where no vertex normal faces away from the eye: the bisection uses
+  // their signs.
   settings.camera.eye = {0, 0, 4};
   const test::FrameDifference d =
       test::difference(test::trace(flat, settings),
                        test::trace(bake(mesh, {SURFACE_PHONG, 0.0, SHELL_HEIGHT}), settings));
-  // The outline and the edges between: the listing accepts points up to minDelta, 1e-4, off the
+  // At the outline and at edges: the bisection accepts points up to minDelta, 1e-4, off the
   // surface.
   EXPECT_LE(d.hit_mismatches, 4U);
   EXPECT_LE(d.patch_mismatches, 4U);
-  // The same along a ray that is as oblique as 1 to 4.
+  // The same along a ray whose angle to the surface has a sine of 1/4.
   EXPECT_LE(d.depth, 4e-4);
 }
 
@@ -134,7 +137,8 @@ TEST_F(Trace, SphereSurfaceLiesOnTheUnitSphere) {
       const TraceSettings settings = test::framed(mesh, scene, 160, 120, rank);
       const TraceParams params = make_params(scene, settings);
       const Frame frame = test::trace(scene, settings);
-      // A hit is accepted up to this far off along the shell: the chord's 2^-rank, or minDelta.
+      // The bisection accepts points up to this far off the surface, along the shell's direction:
+      // 2^-rank of the chord's length, or minDelta if that is more.
       double chord = 0.0;
       for (const Triangle& tri : scene.triangles) {
         chord = std::max(chord, 2.0 * static_cast<double>(tri.Domain.w));
@@ -158,7 +162,8 @@ TEST_F(Trace, SphereSurfaceLiesOnTheUnitSphere) {
 }
 
 TEST_F(Trace, BisectionDropsPixelsAtRank10AndNoneAtRank20) {
-  // The evidence that the port is faithful: rings of holes, a fifth of the sphere's pixels.
+  // Rings of holes, a fifth of the sphere's pixels, as the thesis has them: evidence that the port
+  // is faithful.
   const Mesh mesh = test::load_asset("sphere-20");
   for (const uint surface : {SURFACE_PHONG, SURFACE_SPHERE}) {
     const BakedScene scene = bake(mesh, {surface, 0.65, SHELL_HEIGHT});
@@ -175,8 +180,8 @@ TEST_F(Trace, BisectionDropsPixelsAtRank10AndNoneAtRank20) {
 }
 
 TEST_F(Trace, EveryCornerOfTheImageIsWhereItBelongs) {
-  // Four triangles, one in each corner of the view, told apart by their number: the image is
-  // neither mirrored nor upside down.
+  // Four triangles, one in each corner of the view, distinguished by their indices: the image must
+  // be neither mirrored nor upside down.
   Mesh mesh;
   mesh.normals = {{0, 0, 1}};
   const auto add = [&](double x, double y) {
@@ -246,7 +251,8 @@ TEST_F(Trace, NormalsAreUnitAndFaceTheEye) {
       const dvec3 geometric(aov.geometric_u);
       ASSERT_NEAR(glm::length(shading), 1.0, 1e-6);
       ASSERT_NEAR(glm::length(geometric), 1.0, 1e-6);
-      // Front surfaces only, whose two normals differ by the faceting of 256 triangles.
+      // Only front faces are hit. The two normals differ by as much as the model's 256 triangles
+      // turn.
       ASSERT_GT(glm::dot(shading, geometric), 0.85);
       if (surface != SURFACE_FLAT) {
         ASSERT_LE(glm::dot(shading, pixel_ray(params, i % 80, i / 80).direction), 1e-3);
@@ -265,8 +271,8 @@ TEST_F(Trace, FramesDoNotDependOnTheirTiling) {
   Frame second;
   int submits = 0;
   tracer.render(params, first, [&] { return ++submits > 0; });
-  EXPECT_GT(submits, 1) << "the first frame feels its way";
-  // By now the tracer knows the cost of a workgroup, and cuts the image elsewhere.
+  EXPECT_GT(submits, 1) << "the first frame is rendered in small submits";
+  // Now the tracer knows the cost of a workgroup and divides the image into other submits.
   tracer.render(params, second);
   EXPECT_EQ(first.colors, second.colors);
   for (std::size_t i = 0; i < first.aovs.size(); ++i) {
@@ -276,7 +282,7 @@ TEST_F(Trace, FramesDoNotDependOnTheirTiling) {
 }
 
 TEST_F(Trace, PixelsOfAnySizeOfImageAreThoseOfTheWholeImage) {
-  // One pixel, one row, one column, sizes that no workgroup divides.
+  // One pixel, one row, one column, and sizes that are no multiples of a workgroup's.
   const Mesh mesh = test::load_asset("sphere-20");
   const BakedScene scene = bake(mesh, {SURFACE_FLAT, 0.0});
   for (const auto& [width, height] :
@@ -316,11 +322,11 @@ TEST_F(Trace, StopsBetweenTwoSubmits) {
   int submits = 0;
   EXPECT_FALSE(tracer.render(make_params(scene, settings), frame, [&] { return ++submits < 2; }));
   EXPECT_EQ(submits, 2);
-  // What the caller throws comes through.
+  // An exception of the caller's function passes through.
   EXPECT_THROW(tracer.render(make_params(scene, settings), frame,
                              []() -> bool { throw std::runtime_error("stop"); }),
                std::runtime_error);
-  // And goes on as if nothing had been.
+  // The tracer renders the next frame as if nothing had happened.
   tracer.render(make_params(scene, settings), frame);
   EXPECT_GT(frame.hits(), 10000U);
 }
@@ -344,11 +350,11 @@ TEST_F(Trace, FarFromTheOriginTheFrameIsTheSame) {
   const BakedScene far = bake(mesh, {SURFACE_SPHERE, 0.0, SHELL_HEIGHT});
   const test::FrameDifference d =
       test::difference(expected, test::trace(far, test::framed(mesh, far, 160, 120, 24)));
-  // Rays and vertices differ by a rounding: pixels at an edge may change sides.
+  // Rays and vertices are rounded differently: pixels at an edge may hit another triangle.
   EXPECT_LE(d.hit_mismatches, 3U);
   EXPECT_LE(d.patch_mismatches, 3U);
-  // Where both hit, a different last step of the march: minDelta, 1e-4, along a ray as oblique as 1
-  // to 4.
+  // Where both hit, the bisection's last step may differ: by minDelta, 1e-4, along a ray whose
+  // angle to the surface has a sine of 1/4.
   EXPECT_LE(d.depth, 4e-4);
 }
 
@@ -375,8 +381,8 @@ TEST_F(Trace, RefusesAModelThatNoBufferHolds) {
 }
 
 TEST_F(Trace, WorksAtBothEndsOfTheRangeOfSizes) {
-  // Of the curved surfaces the bisection's absolute tolerances leave little at such sizes; what can
-  // be told is that single precision neither overflows nor vanishes.
+  // The bisection's tolerances are absolute, so at such sizes it finds little of a curved surface.
+  // What can be tested is that single precision neither overflows nor underflows.
   const Mesh unit = test::load_asset("sphere-20");
   const BakedScene reference = bake(unit, {SURFACE_FLAT, 0.0});
   const Frame expected = test::trace(reference, test::framed(unit, reference, 80, 60, 10));
@@ -385,7 +391,8 @@ TEST_F(Trace, WorksAtBothEndsOfTheRangeOfSizes) {
     for (dvec3& p : mesh.positions) p *= scale;
     const BakedScene scene = bake(mesh, {SURFACE_FLAT, 0.0});
     const Frame frame = test::trace(scene, test::framed(mesh, scene, 80, 60, 10));
-    // The scale is no power of two: a pixel at the outline may round to the other side.
+    // The scale is no power of two, so vertices are rounded differently: a pixel at the outline may
+    // change.
     EXPECT_NEAR(static_cast<double>(frame.hits()), static_cast<double>(expected.hits()), 2.0)
         << scale;
   }
@@ -400,25 +407,25 @@ TEST_F(Trace, CountsTheBytesThatRaysRead) {
     VulkanTracer tracer(test::validated_device(), scene, 800, 600,
                         {.solver = solver, .aovs = true, .counts = true, .accel = accel});
     Frame frame;
-    // One that is stopped counts for nothing.
+    // The count of a frame that is stopped is not added to that of the next one.
     EXPECT_FALSE(tracer.render(params, frame, [] { return false; }));
     tracer.render(params, frame);
     return frame.bytes_read;
   };
   constexpr uint64_t kPixels = uint64_t{800} * 600;
-  // Every ray reads three corners of every triangle: more than 32 bits count.
+  // Every ray reads the three corners of every triangle: the sum needs more than 32 bits.
   const BakedScene flat = bake(mesh, {SURFACE_FLAT, 0.0});
   EXPECT_EQ(bytes_of(flat, SOLVER_BISECT, Accel::list), kPixels * 320 * 3 * sizeof(vec4));
   BakedScene curved = bake_with_subpatches(mesh, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
   curved.bvh = build_bvh(curved);
   const uint64_t list = bytes_of(curved, SOLVER_ROBUST, Accel::list);
-  // Every ray reads the ball of every patch, at least, and some of them a part.
+  // Every ray reads at least the ball of every patch, and some rays whole subpatches.
   EXPECT_GT(list, kPixels * curved.triangles.size() * sizeof(vec4));
   for (const Accel accel : {Accel::tiles, Accel::bvh}) {
     const uint64_t bytes = bytes_of(curved, SOLVER_ROBUST, accel);
     EXPECT_GT(bytes, kPixels * sizeof(vec4)) << accel_name(accel);
     EXPECT_LT(bytes, list / 4) << accel_name(accel)
-                               << ": a quarter of the image has parts, a few each";
+                               << ": a quarter of the image has subpatches, a few per pixel";
   }
 }
 

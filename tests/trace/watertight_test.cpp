@@ -1,5 +1,5 @@
-// Closed models in the normal shell do not leak: a million rays here, a hundred million in the slow
-// tests.
+// No ray passes through a closed model in the normal shell without a hit: a million rays here, a
+// hundred million in the slow tests.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,8 @@ TEST_P(Watertight, HasNoLeak) {
   EXPECT_EQ(leaks.rays, model.rays);
   EXPECT_EQ(leaks.leaks, 0U);
   EXPECT_EQ(leaks.nans, 0U);
-  // Rays from outside that slide by at a silhouette; were they many, the test would ask nothing.
+  // Suspects are rays without a hit near their targets: they graze a silhouette. If
+  // they were many, the test would not test anything.
   EXPECT_LT(leaks.suspects, model.rays / 20);
   RecordProperty("suspects", static_cast<int>(leaks.suspects));
 }
@@ -42,7 +43,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Closed{"sphere-20", SURFACE_PHONG}, Closed{"sphere-20", SURFACE_SPHERE},
                       Closed{"torus", SURFACE_PHONG}, Closed{"capsule", SURFACE_PHONG},
                       Closed{"cube", SURFACE_FLAT}, Closed{"teapot", SURFACE_PHONG},
-                      // Rays this incoherent wait for their neighbours on the way through kinks.
+                      // Fewer rays: they are incoherent, so that most subgroups wait for a ray
+                      // which traverses a nonsmooth patch.
                       Closed{"teapot", SURFACE_SPHERE, kRays / 10}),
     [](const ::testing::TestParamInfo<Closed>& closed) {
       std::string name =

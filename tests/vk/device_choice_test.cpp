@@ -1,4 +1,4 @@
-// Device selection against made-up drivers.
+// The choice of a device, with reports of devices that do not exist.
 #include <gtest/gtest.h>
 
 #include "vk/instance.h"

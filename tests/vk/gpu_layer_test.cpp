@@ -1,4 +1,4 @@
-// The Vulkan layer on a real device.
+// The Vulkan layer on the device of this machine.
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -16,8 +16,8 @@ namespace {
 class GpuLayer : public test::GpuTest {};
 
 TEST_F(GpuLayer, ValidationSpeaksUpWhenACallIsWrong) {
-  // The negative control of every other GPU test: a buffer of no bytes is against the
-  // specification.
+  // The other GPU tests rely on the validation layer to report mistakes. This one makes a mistake:
+  // a buffer of 0 bytes.
   const Device& device = test::validated_device();
   VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
   info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
@@ -32,8 +32,7 @@ TEST_F(GpuLayer, ValidationSpeaksUpWhenACallIsWrong) {
 }
 
 TEST_F(GpuLayer, SynchronisationValidationMissesNoBarrier) {
-  // And the second half of it: two copies into the same bytes without Commands' barrier between
-  // them.
+  // Likewise for missing barriers: two copies to the same bytes without one between them.
   const Device& device = test::validated_device();
   const Buffer a(device, 64, Memory::device, "a");
   const Buffer b(device, 64, Memory::device, "b");
@@ -64,7 +63,7 @@ TEST_F(GpuLayer, BytesComeBackFromTheDevice) {
   std::vector<uint32_t> sent(10007);
   std::iota(sent.begin(), sent.end(), 1U);
   const Buffer buffer(device, sent.size() * sizeof(uint32_t), Memory::device, "numbers");
-  // In one piece, and in pieces that do not divide the whole.
+  // In one piece, and in pieces whose size does not divide that of the buffer.
   for (const std::size_t piece : {std::size_t{1} << 20U, std::size_t{4096}}) {
     Staging staging(device, piece);
     staging.upload(commands, std::as_bytes(std::span(sent)), buffer);
@@ -117,7 +116,7 @@ TEST_F(GpuLayer, SaysWhatCouldNotBeAllocated) {
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("huge"), std::string::npos) << error.what();
   }
-  // The layer warns of such a request; that is not what this test is about.
+  // The validation layer warns of such a request: these messages are not a failure of this test.
   test::validated_instance().log().clear();
 }
 
