@@ -19,6 +19,7 @@
 #include "app/dispatch/pipeline_store.h"
 #include "app/frame/supersampling.h"
 #include "app/mesh/obj_file.h"
+#include "app/view/clock.h"
 #include "vk/result.h"
 
 namespace trisect::view {
@@ -28,11 +29,6 @@ namespace {
 constexpr double kStill = 0.15;
 // Of the graph in the panel.
 constexpr std::size_t kFramesTold = 120;
-
-double seconds_between(std::chrono::steady_clock::time_point a,
-                       std::chrono::steady_clock::time_point b) {
-  return std::chrono::duration<double>(b - a).count();
-}
 
 std::vector<std::string> models_in(const std::filesystem::path& folder) {
   std::vector<std::string> models;
