@@ -58,8 +58,8 @@ class CameraControl {
 
  private:
   enum class Mouse {
-    ignored,  // the button went down over the panel, or Esc was pressed: it has to be released
-    ready,    // the button is up, or went down outside of the panel just now
+    ignored,  // what the button does is not for the camera until it is released
+    ready,    // pressing the button begins to turn the camera
     turning,
   };
 

@@ -9,7 +9,7 @@
 namespace trisect::view {
 namespace {
 
-// Of the buffers when they are made. They grow with the frames.
+// Size in pixels for which the buffers are made. They grow with the frames.
 constexpr uint32_t kFirstSide = 64;
 
 }  // namespace
@@ -33,15 +33,15 @@ bool Picture::can_hold(uint32_t width, uint32_t height) const {
                         height, choice_.writes_aovs()) >= height;
 }
 
-std::optional<double> Picture::trace(const TraceSettings& settings, const KeepGoing& keep_going) {
+bool Picture::trace(const TraceSettings& settings, const KeepGoing& keep_going) {
   const TraceParams params = make_params(*scene_, settings);
   params_.reset();
   if (!tracer_->holds_at_once(settings.width, settings.height)) {
     tracer_->resize(settings.width, settings.height);
   }
-  const std::optional<double> ms = tracer_->trace(params, keep_going);
-  if (ms) params_ = params;
-  return ms;
+  if (!tracer_->trace(params, keep_going)) return false;
+  params_ = params;
+  return true;
 }
 
 }  // namespace trisect::view

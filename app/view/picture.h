@@ -1,4 +1,4 @@
-// The frame on the device that the window shows.
+// The frames on the device that the window shows.
 #pragma once
 
 #include <cstdint>
@@ -12,31 +12,36 @@
 
 namespace trisect::view {
 
+// A tracer and the frame that it traced last. use() and trace() must not be called while the device
+// still draws the frame. Not thread safe.
 class Picture {
  public:
   explicit Picture(const gpu::Device& device) : device_(device) {}
 
-  // What is traced from now on, by which kernels: those in `code`, or null for those that were
-  // built in. Returns whether that is something new. Throws DeviceError, and goes on with what it
-  // had, if the device cannot.
+  // Frames show this scene from now on and are traced by these kernels: those in `code`, or the
+  // built-in ones if it is null. Returns whether scene, choice or code are new; the last frame is
+  // lost then. Throws DeviceError, and stays as it was, if the device cannot hold them.
   bool use(const std::shared_ptr<const BakedScene>& scene, const KernelChoice& choice,
            const std::shared_ptr<const KernelCode>& code);
 
-  // Whether a frame of that size fits into the device's buffers.
+  // Whether a frame of that size in pixels fits into the device's buffers.
   [[nodiscard]] bool can_hold(uint32_t width, uint32_t height) const;
 
-  // Returns milliseconds on the device; nothing, and there is no frame, if keep_going said stop.
-  std::optional<double> trace(const TraceSettings& settings, const KeepGoing& keep_going);
+  // Traces a frame; returns whether it is finished. If keep_going said stop there is no frame
+  // afterwards, not even the last one. use() must have been called. Throws UsageError if the camera
+  // of the settings is none; DeviceError.
+  bool trace(const TraceSettings& settings, const KeepGoing& keep_going);
 
-  // Whether its frames have outputs beside colour.
+  // Whether frames have outputs besides colour.
   [[nodiscard]] bool has_aovs() const { return choice_.aovs; }
 
-  // Whether there is a frame; the others are of that.
+  // Whether there is a frame. The rest needs one.
   [[nodiscard]] bool is_there() const { return params_.has_value(); }
   [[nodiscard]] uint32_t width() const { return params_->width; }
   [[nodiscard]] uint32_t height() const { return params_->height; }
   [[nodiscard]] const gpu::Buffer& colors() const { return tracer_->colors(); }
   [[nodiscard]] const gpu::Buffer& aovs() const { return tracer_->aovs(); }
+  // Copies it from the device.
   void fetch(Frame& frame) { tracer_->fetch(*params_, frame); }
 
  private:
@@ -45,7 +50,7 @@ class Picture {
   KernelChoice choice_;
   std::shared_ptr<const KernelCode> code_;
   std::unique_ptr<VulkanTracer> tracer_;
-  std::optional<TraceParams> params_;
+  std::optional<TraceParams> params_;  // of the frame
 };
 
 }  // namespace trisect::view

@@ -1,17 +1,18 @@
 #include "app/view/window.h"
 
 #include <utility>
-#include "app/base/error.h"
 
+#include "app/base/error.h"
 #include "vk/result.h"
 
 namespace trisect::view {
 namespace {
 
+// Where a callback writes the input that it was called for.
 Input& input_of(GLFWwindow* window) {
   Input& input = *static_cast<Input*>(glfwGetWindowUserPointer(window));
   input.any = true;
-  input.disturbs = true;
+  input.ends_refinement = true;
   return input;
 }
 
@@ -23,7 +24,7 @@ std::string last_error() {
 
 }  // namespace
 
-Window::Window(uint32_t width, uint32_t height, const std::string& title) {
+Window::Window(uint32_t width, uint32_t height, const std::string& title) : title_(title) {
   if (glfwInit() != GLFW_TRUE) {
     throw NoDevice("trisect view needs a display: " + last_error() +
                    "; trisect render needs none.");
@@ -53,9 +54,9 @@ Window::Window(uint32_t width, uint32_t height, const std::string& title) {
   glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double, double) {
     Input& input = *static_cast<Input*>(glfwGetWindowUserPointer(window));
     input.any = true;
-    // With a button it turns the camera or works the panel.
+    // With the button held the motion turns the camera or works the panel.
     const bool pressed = glfwGetMouseButton(window, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
-    input.disturbs = input.disturbs || pressed;
+    input.ends_refinement = input.ends_refinement || pressed;
   });
   glfwSetWindowCloseCallback(window_, [](GLFWwindow* window) { input_of(window); });
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int, int, int) { input_of(window); });
@@ -91,6 +92,21 @@ void Window::resize(uint32_t width, uint32_t height) {
   glfwSetWindowSize(window_, static_cast<int>(width), static_cast<int>(height));
 }
 
+void Window::set_title(const std::string& title) {
+  // Every change comes back as an event, which would end a wait.
+  if (title_ == title) return;
+  title_ = title;
+  glfwSetWindowTitle(window_, title.c_str());
+}
+
+bool Window::is_closing() const {
+  return glfwWindowShouldClose(window_) == GLFW_TRUE;
+}
+
+void Window::close() {
+  glfwSetWindowShouldClose(window_, GLFW_TRUE);
+}
+
 void Window::wait(double seconds) {
   if (seconds > 0.0) {
     glfwWaitEventsTimeout(seconds);
@@ -101,6 +117,33 @@ void Window::wait(double seconds) {
 
 Input Window::take() {
   return std::exchange(input_, {});
+}
+
+bool Window::is_key_down(int key) const {
+  return glfwGetKey(window_, key) == GLFW_PRESS;
+}
+
+bool Window::is_left_button_down() const {
+  return glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
+}
+
+glm::dvec2 Window::cursor() const {
+  glm::dvec2 cursor;
+  glfwGetCursorPos(window_, &cursor.x, &cursor.y);
+  return cursor;
+}
+
+void Window::capture_cursor(bool captured) {
+  glfwSetInputMode(window_, GLFW_CURSOR, captured ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+}
+
+std::string Window::clipboard() const {
+  const char* text = glfwGetClipboardString(window_);
+  return text == nullptr ? "" : text;
+}
+
+void Window::set_clipboard(const std::string& text) {
+  glfwSetClipboardString(window_, text.c_str());
 }
 
 Surface::Surface(const gpu::Instance& instance, const Window& window) : instance_(instance.get()) {
