@@ -11,7 +11,7 @@ namespace trisect::view {
 
 class CommandLine {
  public:
-  // Adds the command; it writes into this object when the app parses.
+  // Adds the command to the app, which must not outlive this object: parsing writes into it.
   explicit CommandLine(CLI::App& app);
   CommandLine(const CommandLine&) = delete;
   CommandLine& operator=(const CommandLine&) = delete;
@@ -19,7 +19,8 @@ class CommandLine {
   CommandLine& operator=(CommandLine&&) = delete;
   ~CommandLine() = default;
 
-  // Does what was parsed; returns an exit code. Throws UsageError for options that make no sense.
+  // Runs the command with the parsed options; returns an exit code. Throws UsageError for options
+  // that do not go together.
   int run();
 
  private:

@@ -1,4 +1,4 @@
-// What `trisect view` does.
+// The command `trisect view`.
 #pragma once
 
 #include "app/view/options.h"

@@ -18,15 +18,16 @@
 namespace trisect::view {
 namespace {
 
-// For CLI11, which reads by way of long double: of one in some ten thousand of the shortest texts
-// the second rounding ends beside the value. 17 digits are too near to it for that.
+// The shortest text that CLI11 reads back to this value. CLI11 reads a long double and rounds it to
+// double: for about one shortest text in ten thousand these two roundings give another double. 17
+// digits are so close to the value that this cannot happen.
 std::string number(double value) {
   std::string text = fmt::format("{}", value);
   if (static_cast<double>(std::strtold(text.c_str(), nullptr)) == value) return text;
   return fmt::format("{:.17g}", value);
 }
 
-// For parse_triple, which rounds once.
+// Each number is the shortest text of its value, as parse_triple() reads doubles directly.
 std::string triple(const glm::dvec3& value) {
   return fmt::format("{},{},{}", value.x, value.y, value.z);
 }
@@ -36,7 +37,7 @@ std::vector<std::string> words_of(const std::string& text) {
   return {std::istream_iterator<std::string>(stream), std::istream_iterator<std::string>()};
 }
 
-// "trisect render", of a program in any folder.
+// Whether the words begin with "trisect render", the program being in any folder.
 bool names_command(const std::vector<std::string>& words) {
   return words.size() >= 2 && words[1] == "render" &&
          std::filesystem::path(words[0]).filename() == "trisect";
@@ -56,7 +57,7 @@ std::string flags_of(const RenderOptions& options) {
   if (options.accel) add("--accel", accel_name(*options.accel));
   if (options.eye) add("--eye", triple(*options.eye));
   if (options.target) add("--target", triple(*options.target));
-  // By their texts, as -0 is not 0 bit for bit.
+  // Compared as texts: -0 equals 0 as a number, but renders other bits.
   const std::string up = triple(options.up);
   if (up != triple(RenderOptions{}.up)) add("--up", up);
   add("--fov", number(options.fov));
@@ -75,7 +76,7 @@ RenderOptions with_flags(const RenderOptions& base, const std::string& text) {
   std::vector<std::string> words = words_of(text);
   if (names_command(words)) words.erase(words.begin(), words.begin() + 2);
   CLI::App command;
-  command.set_help_flag();  // it is no option here
+  command.set_help_flag();  // --help is refused like any unknown option
   SceneText scene;
   add_view(command, options, scene);
   add_spp(command, options.spp);
@@ -89,7 +90,7 @@ RenderOptions with_flags(const RenderOptions& base, const std::string& text) {
     throw UsageError(error.what());
   }
   parse_scene(scene, options);
-  // Whether these go together, whatever the model.
+  // Refuses options that do not go together, whatever the model.
   chosen_accel(accel_request(options), Backend::vulkan, 1);
   return options;
 }

@@ -7,16 +7,16 @@
 
 namespace trisect::view {
 
-// What `options` render, but for the model, the files, the device and who traces: what is not said
-// is as in `trisect render` by default. Numbers are as short as they can be and still read back to
-// the same value, so that the text gives the same image bit for bit.
+// The options as text, except for the model, the files, the device and the back end. What the text
+// leaves out has the default value of `trisect render`. Numbers are as short as they can be and
+// still read back to the same value, so that the text renders the same image bit for bit.
 std::string flags_of(const RenderOptions& options);
 
-// The options in `text`, which may begin with "trisect render" and have a MODEL and -o FILE (all
-// ignored), laid over `base`. Words are parted by white space. Without --shadows, --spp and --accel
-// there are no shadows, one ray a pixel and accel auto; of the others those not given are `base`'s.
-// Throws UsageError, naming what is wrong, for anything that is not of add_view or --spp and for
-// what `trisect render` would not take.
+// `base` with the options that are given in `text`. Words are separated by white space; "trisect
+// render" at the beginning, a MODEL and -o FILE are ignored. Without --shadows, --spp or --accel
+// the result has no shadows, one ray per pixel or accel auto, whatever `base` has. Throws
+// UsageError, naming what is wrong, for an option that is neither --spp nor one of add_view(), and
+// for values that `trisect render` would refuse.
 RenderOptions with_flags(const RenderOptions& base, const std::string& text);
 
 }  // namespace trisect::view

@@ -10,12 +10,12 @@ using glm::dvec3;
 
 namespace {
 
-// Of a step of the wheel.
+// What a step of the wheel multiplies the speed, or the distance in orbit, by.
 constexpr double kFaster = 1.25;
 constexpr double kNearer = 0.9;
 
-// From the up vector and from its opposite a line of sight stays away by so much, in radians: there
-// is no camera along them.
+// Least angle between the line of sight and the up vector or its opposite, in radians: a camera
+// that looks along either has no defined horizon.
 constexpr double kPole = 0.01;
 
 dvec3 turned(const dvec3& v, double angle, const dvec3& axis) {
@@ -28,7 +28,7 @@ void Navigator::turn(const glm::dvec2& by) {
   const dvec3 up = glm::normalize(camera_.up);
   dvec3 ahead = camera_.target - camera_.eye;
   const double from_up = std::acos(std::clamp(glm::dot(glm::normalize(ahead), up), -1.0, 1.0));
-  // Going around, the eye goes where the picture is dragged from.
+  // In orbit the mouse drags the model: the eye moves the opposite way.
   const double sense = orbits_ ? -1.0 : 1.0;
   const double rise =
       std::clamp(sense * by.y, from_up - (std::acos(-1.0) - kPole), from_up - kPole);

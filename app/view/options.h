@@ -1,4 +1,4 @@
-// The command line's values for `trisect view`, parsed.
+// The parsed options of `trisect view`.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,16 @@
 namespace trisect {
 
 struct ViewOptions {
-  RenderOptions
-      render;          // width and height are the window's; its output, runs and stats mean nothing
-  std::string assets;  // folder of the models to choose from
+  // width and height are also those of the window when it opens. output, runs and stats are unused.
+  RenderOptions render;
+  std::string assets;              // folder of the models that the panel offers
   std::string shaders;             // folder of the shaders' sources
-  bool watch = false;              // recompiles them when they change
-  double frame_ms = 33.0;          // that a frame may take while something moves
-  std::optional<uint64_t> frames;  // ends after so many
-  std::string screenshot;          // written at the end
-  std::string script;
-  std::string stats;
+  bool watch = false;              // compile the shaders whenever a source changes
+  double frame_ms = 33.0;          // time that a frame may take while something moves
+  std::optional<uint64_t> frames;  // end after this many frames
+  std::string screenshot;          // file to write at the end; empty: none
+  std::string script;              // file of a script; empty: none
+  std::string stats;               // file for the statistics; empty: none
 };
 
 }  // namespace trisect

@@ -20,7 +20,7 @@ void text(const std::string& line) {
   ImGui::TextWrapped("%s", line.c_str());
 }
 
-// A choice among names, of a value that counts from 0.
+// A combo box for a value that is an index into the names.
 template <typename Names>
 void choose(const char* label, uint& value, const Names& names) {
   if (!ImGui::BeginCombo(label, names[value])) return;
@@ -30,14 +30,16 @@ void choose(const char* label, uint& value, const Names& names) {
   ImGui::EndCombo();
 }
 
-// ImGui's sliders know float; a value that was not touched keeps its digits.
+// A slider for a double. ImGui's sliders are of floats: the value is only written when the user
+// moves the slider. Returns whether that was so.
 bool slide(const char* label, double& value, double least, double most, const char* format) {
   auto shown = static_cast<float>(value);
   if (!ImGui::SliderFloat(label, &shown, static_cast<float>(least), static_cast<float>(most),
                           format, ImGuiSliderFlags_AlwaysClamp)) {
     return false;
   }
-  // The shortest decimal that is this float: what the flags say is what is meant.
+  // By the shortest decimal of this float, so that copied flags read 0.1 and not
+  // 0.10000000149011612.
   value = std::stod(fmt::format("{}", shown));
   return true;
 }
@@ -54,7 +56,7 @@ void choose_model(const Settings& settings, const Facts& facts, Requests& reques
   if (ImGui::BeginCombo("model", model_name(settings.render.model).c_str())) {
     entries(facts.models);
     if (!facts.recent.empty()) ImGui::Separator();
-    // A model may be in both lists.
+    // A file may be in both lists, but ImGui needs distinct identifiers.
     ImGui::PushID("recent");
     entries(facts.recent);
     ImGui::PopID();
@@ -77,7 +79,7 @@ void choose_surface(Settings& settings, const Facts& facts) {
     auto rank = static_cast<int>(render.rank);
     ImGui::SliderInt("Rank", &rank, 1, 60, "%d", ImGuiSliderFlags_AlwaysClamp);
     render.rank = static_cast<uint32_t>(rank);
-    // What only the robust solver has.
+    // Only the robust solver has these.
     render.shadows = false;
     render.accel.reset();
     return;
@@ -158,7 +160,7 @@ void offer_files(Settings& settings, const Facts& facts, Requests& requests) {
   if (ImGui::Button("reload shaders (F5)")) requests.reload_shaders = true;
 }
 
-void build_cheats() {
+void build_key_list() {
   ImGui::SetNextWindowPos(ImVec2(ImGui::GetIO().DisplaySize.x - 10.0F, 10.0F), ImGuiCond_Always,
                           ImVec2(1.0F, 0.0F));
   ImGui::Begin("keys", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove);
@@ -190,7 +192,7 @@ std::optional<uint> shown_named(const std::string& name) {
 
 Requests build_panel(Settings& settings, const Facts& facts) {
   Requests requests;
-  if (settings.show_keys) build_cheats();
+  if (settings.show_keys) build_key_list();
   if (!settings.panel) return requests;
   ImGui::SetNextWindowPos(ImVec2(10.0F, 10.0F), ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowSize(ImVec2(300.0F, 0.0F), ImGuiCond_FirstUseEver);

@@ -1,4 +1,4 @@
-// The panel: what is shown and how, and what is known of it.
+// The panel with the settings of the view, and the list of keys.
 #pragma once
 
 #include <cstdint>
@@ -10,21 +10,21 @@
 
 namespace trisect::view {
 
-// What the panel changes.
+// What the user sets in the panel or by keys.
 struct Settings {
-  // width, height and spp of it are those of saved pictures; spp is the window's, too, when it is
-  // still.
+  // width and height are those of saved pictures; spp is that of saved pictures and of the window
+  // at rest.
   RenderOptions render;
   uint shown = SHOWN_COLOR;
-  double frame_ms = 33.0;  // that a frame may take while something moves
-  bool counts = false;     // evaluations and candidates are counted and told
-  bool orbit = false;
-  bool exr = false;        // pictures are saved as EXR; as PNG without it
-  bool panel = true;       // is there
-  bool show_keys = false;  // the list of keys is there
+  double frame_ms = 33.0;  // time that a frame may take while something moves
+  bool counts = false;     // count evaluations and candidates
+  bool orbit = false;      // the camera orbits around its target; otherwise it walks
+  bool exr = false;        // save pictures as EXR; otherwise as PNG
+  bool panel = true;       // show the panel
+  bool show_keys = false;  // show the list of keys
 };
 
-// What it asks for.
+// What the user asked for in the panel.
 struct Requests {
   bool save = false;
   bool copy = false;
@@ -35,36 +35,38 @@ struct Requests {
   std::optional<std::string> open;  // a model
 };
 
+// Means per pixel.
 struct Work {
-  double evaluations = 0.0;  // a pixel
+  double evaluations = 0.0;
   double candidates = 0.0;
 };
 
-// What it shows.
+// What the panel shows.
 struct Facts {
   std::string device;
   std::string driver;
-  bool ray_query = false;  // of the device
-  std::string model;       // in a line
-  std::string message;     // the last one; what failed, or what was done
+  bool ray_query = false;  // the device has ray queries
+  std::string model;       // about the model, one line
+  std::string message;     // what was done last, or why it failed
   bool loading = false;
-  std::vector<std::string> models;  // to choose from
-  std::vector<std::string> recent;
-  std::vector<float> frame_ms;  // of the last frames
-  double trace_ms = 0.0;        // of the last frame
+  std::vector<std::string> models;  // files to choose from
+  std::vector<std::string> recent;  // files that were opened last
+  std::vector<float> frame_ms;      // of the last moving frames
+  double trace_ms = 0.0;            // of the last frame, as its size and acceleration
   uint32_t frame_width = 0;
   uint32_t frame_height = 0;
   std::string accel;
   std::optional<Work> work;
   std::optional<float> error_progress;
-  std::string error;  // in a line
-  std::string save_file;
+  std::string error;      // about the measured error, one line
+  std::string save_file;  // the name of the next picture
 };
 
-// Builds the panel, within PanelLayer's begin and end, and changes the settings.
+// Lays out the panel and the list of keys between PanelLayer's begin() and end(), and changes the
+// settings as the user does.
 Requests build_panel(Settings& settings, const Facts& facts);
 
-// The output of that name, as the panel has it; nothing if there is none.
+// The output (SHOWN_...) of that name in the panel; nothing if there is none.
 std::optional<uint> shown_named(const std::string& name);
 
 }  // namespace trisect::view

@@ -14,7 +14,7 @@ void check_result(VkResult result) {
   gpu::check(result, "Dear ImGui");
 }
 
-// The font's texture goes to the device by a command buffer of its own.
+// Uploads the font's texture, by a command buffer of its own.
 void upload_font(const gpu::Device& device) {
   gpu::CommandBuffer buffer(device);
   buffer.begin();
@@ -41,7 +41,7 @@ PanelLayer::PanelLayer(const gpu::Instance& instance, const gpu::Device& device,
   pool.pPoolSizes = &size;
   TRISECT_VK(vkCreateDescriptorPool(device.get(), &pool, nullptr, pool_.fill(device.get())));
   ImGui::CreateContext();
-  // Nothing is kept between runs: the window's state is the command line's.
+  // The layout is not kept between runs, which would otherwise not be reproducible.
   ImGui::GetIO().IniFilename = nullptr;
   ImGui::StyleColorsDark();
   ImGui_ImplGlfw_InitForVulkan(window.get(), true);
@@ -53,7 +53,8 @@ PanelLayer::PanelLayer(const gpu::Instance& instance, const gpu::Device& device,
   info.Queue = device.queue();
   info.PipelineCache = device.pipeline_cache();
   info.DescriptorPool = pool_.get();
-  // Of its vertex buffers, one for each: a frame is drawn when the last one is through.
+  // Two sets of vertex buffers, the fewest that ImGui takes. One would do, as the swapchain waits
+  // for the last frame before it draws the next.
   info.MinImageCount = 2;
   info.ImageCount = 2;
   info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;

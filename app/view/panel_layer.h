@@ -1,4 +1,4 @@
-// Dear ImGui in the window: its context, its input, its drawing.
+// Dear ImGui in the window: context, input, drawing.
 #pragma once
 
 #include "app/view/window.h"
@@ -7,9 +7,10 @@
 
 namespace trisect::view {
 
+// There can be one at a time, as Dear ImGui's context is global. Of the main thread only.
 class PanelLayer {
  public:
-  // The window's own callbacks stay: this one's call them. Throws DeviceError.
+  // Installs Dear ImGui's callbacks, which call the window's own. Throws DeviceError.
   PanelLayer(const gpu::Instance& instance, const gpu::Device& device, const Window& window,
              VkRenderPass render_pass);
   ~PanelLayer();
@@ -18,14 +19,14 @@ class PanelLayer {
   PanelLayer(PanelLayer&&) = delete;
   PanelLayer& operator=(PanelLayer&&) = delete;
 
-  // Between these the panel is built.
+  // The panel is laid out between these.
   static void begin();
   static void end();
 
-  // Within the render pass.
+  // Records the drawing of the panel, within the render pass.
   static void draw(VkCommandBuffer commands);
 
-  // Whether keys or the mouse are the panel's now.
+  // Whether the panel takes the keys, because text is typed into it, or the mouse.
   [[nodiscard]] static bool wants_keys();
   [[nodiscard]] static bool wants_mouse();
 

@@ -1,4 +1,4 @@
-// The models that were opened last, kept between runs.
+// The list of the models that were opened last, kept between runs.
 #pragma once
 
 #include <filesystem>
@@ -10,13 +10,15 @@ namespace trisect::view {
 
 class RecentFiles {
  public:
-  // folder: the user's for this program's caches; without one nothing is kept.
+  // folder: where the list is kept, the user's cache folder for this program; without one it is not
+  // kept.
   explicit RecentFiles(const std::optional<std::filesystem::path>& folder);
 
-  // The last one first.
+  // Absolute paths, at most eight, the last one first.
   [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
 
-  // Puts it first and keeps the list; one that cannot be written is as good as none.
+  // Puts the file first and writes the list. If that fails, the list is only good for this run: it
+  // is a convenience, and no reason for an error.
   void add(const std::string& file);
 
  private:

@@ -1,4 +1,4 @@
-// Pictures that are kept: of any size, whatever the window's.
+// Saves the view as an image file, of any size whatever that of the window.
 #pragma once
 
 #include <string>
@@ -10,8 +10,9 @@
 
 namespace trisect::view {
 
-// Renders what `trisect render` would with these options, bit for bit, and writes it to the file, a
-// .png or .exr. Throws UsageError, InputError or DeviceError, and leaves no file then.
+// Renders the image that `trisect render` renders with these options, bit for bit, and writes it to
+// the file, a .png or .exr. On an error no file is left. Throws UsageError, InputError,
+// DeviceError.
 void save_picture(const gpu::Device& device, const Mesh& mesh, const BakedScene& scene,
                   const RenderOptions& options, const std::string& file);
 

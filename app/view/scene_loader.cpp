@@ -13,7 +13,8 @@
 namespace trisect::view {
 namespace {
 
-// before: what the same mesh looked like, if the mesh is there.
+// mesh: of an earlier request for the same model and crease, or null to read the file. before: the
+// scene that was baked from that mesh, whose tree can be refitted; summary: its summary.
 std::variant<ViewedScene, LoadFailure> load(const SceneRequest& request,
                                             std::shared_ptr<const Mesh> mesh,
                                             const std::shared_ptr<const BakedScene>& before,

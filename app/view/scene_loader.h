@@ -1,4 +1,4 @@
-// Models are read and baked beside the window, which goes on showing the last one.
+// Reads and bakes models in the background, while the window goes on showing the last one.
 #pragma once
 
 #include <future>
@@ -17,7 +17,7 @@ struct SceneRequest {
   std::string model;
   std::optional<double> crease;
   SurfaceChoice choice;
-  bool tree = false;  // a bvh is wanted
+  bool tree = false;  // whether the scene needs its bvh
 
   bool operator==(const SceneRequest&) const = default;
 };
@@ -25,23 +25,24 @@ struct SceneRequest {
 struct ViewedScene {
   SceneRequest request;
   std::shared_ptr<const Mesh> mesh;
-  std::shared_ptr<const BakedScene> scene;  // with cages
-  std::string summary;                      // about the file
+  std::shared_ptr<const BakedScene> scene;  // with the bounds of its subpatches
+  std::string summary;                      // of the file, one line
 };
 
-// Why there is none.
+// Why a scene could not be loaded.
 struct LoadFailure {
   SceneRequest request;
   std::string message;
 };
 
+// One scene is loaded at a time, in a thread of its own. The functions are for one thread.
 class SceneLoader {
  public:
-  // Has this scene loaded, after the one that is being loaded; of several that wait the last one
-  // counts. What was asked for last is not asked for again.
+  // Has this scene loaded, once the one that is being loaded is ready. Of several that wait only
+  // the last one is loaded. A request equal to the last one does nothing.
   void ask(const SceneRequest& request);
 
-  // What is there counts as asked for last: nothing is to be loaded until something else is.
+  // Takes this scene for the one that was asked for last: an equal request loads nothing.
   void keep(const ViewedScene& scene) {
     asked_ = scene.request;
     mesh_ = scene.mesh;
@@ -50,13 +51,13 @@ class SceneLoader {
     summary_ = scene.summary;
   }
 
-  // The same may be asked for again, and is read anew.
+  // Forgets the last request and its mesh: an equal one reads the file again.
   void forget() {
     asked_.reset();
     mesh_.reset();
   }
 
-  // The scene asked for, once.
+  // The result of the last request, once, when it is ready.
   std::optional<std::variant<ViewedScene, LoadFailure>> poll();
 
   [[nodiscard]] bool is_busy() const { return running_.valid(); }
@@ -64,9 +65,10 @@ class SceneLoader {
  private:
   using Result = std::variant<ViewedScene, LoadFailure>;
 
-  std::optional<SceneRequest> asked_;
-  std::optional<SceneRequest> waiting_;
-  std::shared_ptr<const Mesh> mesh_;  // of the last model that was read
+  std::optional<SceneRequest> asked_;    // the last one
+  std::optional<SceneRequest> waiting_;  // to be loaded after the one that is being loaded
+  // What was loaded last, to be used again if the next request is for the same mesh.
+  std::shared_ptr<const Mesh> mesh_;
   std::shared_ptr<const BakedScene> scene_;
   SceneRequest mesh_request_;
   std::string summary_;

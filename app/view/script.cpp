@@ -74,7 +74,7 @@ int key_named(const std::string& name) {
     if (entry.first == name) return entry.second;
   }
   if (name.size() != 1) return -1;
-  // GLFW numbers letters and digits as ASCII does, in capitals.
+  // GLFW's key codes of letters and digits are ASCII, of capital letters.
   const char c = name[0];
   if (c >= 'a' && c <= 'z') return c - 'a' + 'A';
   return c >= '0' && c <= '9' ? c : -1;

@@ -1,4 +1,4 @@
-// What a script has a window do, and when.
+// The script of `trisect view --script`: commands and when they are due.
 #pragma once
 
 #include <string>
@@ -7,19 +7,20 @@
 namespace trisect::view {
 
 struct ScriptStep {
-  double seconds = 0.0;  // since the third frame
+  double seconds = 0.0;  // after the third frame was shown
   std::string command;
   std::string argument;  // the rest of the line
 };
 
-// Lines "SECONDS COMMAND ARGUMENT", in any order of time; empty lines and those that begin with #
-// are passed over. Commands: `hold KEY SECONDS` and `press KEY` (a letter, a digit, space, shift,
-// tab, escape, f5 or f12), `flags FLAGS` (of `trisect render`), `shown NAME`, `size WxH` (the
-// window's), `open FILE`, `save FILE`, `error`, `quit`. Returns them in the order of time. Throws
-// InputError, naming the file and the line, for what is not such a line.
+// Reads lines "SECONDS COMMAND ARGUMENT", in any order of time; empty lines and those that begin
+// with # are ignored. Commands: `hold KEY SECONDS` and `press KEY` (a letter, a digit, space,
+// shift, tab, escape, f5 or f12), `flags FLAGS` (of `trisect render`), `shown NAME`, `size WxH` (of
+// the window), `open FILE`, `save FILE`, `error`, `quit`. Returns the steps in the order of time;
+// those of the same time stay in the order of the file. Throws InputError, naming the file and the
+// line, for any other line.
 std::vector<ScriptStep> read_script(const std::string& file);
 
-// GLFW's number of a key of that name; -1 if there is none.
+// GLFW_KEY_... of the key with that name; -1 if there is none.
 int key_named(const std::string& name);
 
 }  // namespace trisect::view

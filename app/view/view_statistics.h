@@ -1,4 +1,4 @@
-// How fast a window was.
+// How fast the frames of a window were.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@ namespace trisect::view {
 struct ViewStatistics {
   std::string device;
   std::string driver;
-  uint64_t frames = 0;  // that were shown
-  // Of frames that were traced anew because something had changed:
-  std::vector<double> moving_ms;    // from the look at the input until the frame is handed over
-  std::vector<double> moving_part;  // their pixels over the window's
+  uint64_t frames = 0;  // frames shown since the model was loaded
+  // Of each frame that was traced because what the window shows had changed:
+  std::vector<double> moving_ms;    // from taking the input until the frame is given to the display
+  std::vector<double> moving_part;  // its pixels over those of the window
 };
 
-// A line for a person; empty if nothing was shown.
+// One line of text for the terminal; empty if no frame was shown.
 std::string to_text(const ViewStatistics& statistics);
 
 std::string to_json(const ViewStatistics& statistics);

@@ -16,7 +16,7 @@ XDisplay::XDisplay() {
   server_ = fork();
   if (server_ == 0) {
     close(pipe[0]);
-    // The server says by the pipe which free number it took, once it can be reached.
+    // The server picks a free number and writes it to the pipe once it accepts connections.
     const std::string number = std::to_string(pipe[1]);
     execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "1280x1024x24",
            "-nolisten", "tcp", "-noreset", nullptr);
@@ -41,12 +41,12 @@ void XDisplay::manage_windows() {
   manager_ = fork();
   if (manager_ == 0) {
     setenv("DISPLAY", (":" + number_).c_str(), 1);
-    // What it says of missing menus and screens concerns nobody.
+    // openbox complains about missing menus, which do not matter here.
     if (freopen("/dev/null", "w", stderr) == nullptr) _exit(127);
     execlp("openbox", "openbox", "--sm-disable", nullptr);
     _exit(127);
   }
-  // It says what it can do on the root window, once it does.
+  // A window manager sets this property of the root window when it is ready.
   for (int i = 0;
        run("xprop -root _NET_SUPPORTING_WM_CHECK").find("window id") == std::string::npos; ++i) {
     if (i == 100) throw std::runtime_error("openbox did not start; is it installed?");
@@ -73,7 +73,7 @@ std::string XDisplay::window_called(const std::string& name) const {
   for (int i = 0; i < 1200; ++i) {
     const std::string windows = run("xdotool search --name '" + name + "' || true");
     if (!windows.empty()) return windows.substr(0, windows.find('\n'));
-    // openbox may sleep on a request that its Xlib has read already, until another event comes.
+    // openbox may overlook a request that its Xlib has already read, until another event comes.
     xdotool("set_desktop 0 || true");
     usleep(50000);
   }
@@ -85,7 +85,7 @@ std::string XDisplay::pixel(const std::string& window, int x, int y, int around)
   const std::string part = std::to_string(side) + "x" + std::to_string(side) + "+" +
                            std::to_string(x - around) + "+" + std::to_string(y - around);
   // Its text format has a line for each pixel, "0,0: (0,0,255)  #0000FF  blue".
-  // Where there is no such window import waits for a click on another.
+  // Without such a window, import would wait for a click on another one.
   return run("timeout 60 import -silent -window " + window + " -crop " + part + " -depth 8 txt:-");
 }
 

@@ -1,4 +1,4 @@
-// A display of its own for a test, and hands on its keyboard and mouse.
+// An X display for one test, with a keyboard and a mouse that the test works.
 #pragma once
 
 #include <sys/types.h>
@@ -7,6 +7,7 @@
 
 namespace trisect::test {
 
+// Not thread safe, but one thread may use the display while another one runs the program in it.
 class XDisplay {
  public:
   // Starts Xvfb with a screen of 1280 x 1024 pixels. Throws if it cannot be started.
@@ -17,23 +18,25 @@ class XDisplay {
   XDisplay(XDisplay&&) = delete;
   XDisplay& operator=(XDisplay&&) = delete;
 
-  // Starts a window manager, which minimises, restores and closes windows and gives them the keys.
+  // Starts a window manager, which minimises, restores and closes windows and gives them the
+  // keyboard's focus.
   void manage_windows();
 
   // "DISPLAY=:N".
   [[nodiscard]] std::string environment() const { return "DISPLAY=:" + number_; }
 
-  // The number of a window of this name, once there is one: a viewer's from its third frame on.
+  // Waits for a window of this name, up to a minute, and returns its number. A window of the viewer
+  // is named after its model from the third frame on. Throws if there is none.
   [[nodiscard]] std::string window_called(const std::string& name) const;
 
-  // What a window shows at a position and so many pixels around it, as text: "0000FF" for each
-  // pixel.
+  // The pixels of a square of the window, as a text with a line for each that contains its colour
+  // as "0000FF". The square is centred at this position and reaches `around` pixels to each side.
   [[nodiscard]] std::string pixel(const std::string& window, int x, int y, int around = 0) const;
 
-  // Whether a window of this name is on the screen: not minimised.
+  // Whether a window of this name is on the screen and not minimised.
   [[nodiscard]] bool shows(const std::string& name) const;
 
-  // Runs xdotool with these words; its output. Throws if it fails.
+  // Runs xdotool with these arguments and returns its output. Throws if it fails.
   std::string xdotool(const std::string& words) const { return run("xdotool " + words); }
 
  private:

@@ -27,7 +27,7 @@ void expect_same(const std::optional<glm::dvec3>& a, const std::optional<glm::dv
   if (a) expect_same(*a, *b);
 }
 
-// Of what flags_of writes, bit for bit.
+// Compares what flags_of() writes, bit for bit.
 void expect_same(const RenderOptions& a, const RenderOptions& b) {
   EXPECT_EQ(a.width, b.width);
   EXPECT_EQ(a.height, b.height);
@@ -66,7 +66,7 @@ std::string refusal(const std::string& text, const RenderOptions& base = {}) {
   return {};
 }
 
-// Every option that flags_of knows, of the robust solver.
+// A value other than the default for every option of the robust solver.
 RenderOptions all_options() {
   RenderOptions options;
   options.width = 1;
@@ -109,7 +109,7 @@ TEST(Flags, ReadBackBitForBit) {
   expect_round_trip(options);
   options.accel = Accel::list;
   expect_round_trip(options);
-  // It has no Rank to say.
+  // flags_of() writes no Rank for the robust solver.
   options.solver = SOLVER_ROBUST;
   options.rank = RenderOptions{}.rank;
   for (const Accel accel : {Accel::tiles, Accel::bvh}) {
@@ -124,7 +124,7 @@ TEST(Flags, ReadBackBitForBit) {
   expect_round_trip(options);
 }
 
-// Their shortest texts are rounded to other numbers if they are rounded to long double first.
+// Numbers whose shortest texts become other doubles if they are rounded to long double first.
 TEST(Flags, ReadBackWhatIsRoundedTwice) {
   RenderOptions options;
   options.alpha = 0.4286789683249492;

@@ -1,4 +1,4 @@
-// What walks, paces and scripts a window, without one.
+// Camera motion, resolution of moving frames and script files, without a window.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 
 using glm::dvec3;
 
-// Roundings of a few rotations.
+// More than the rounding errors of a few rotations in doubles.
 constexpr double kClose = 1e-12;
 
 Camera camera() {
@@ -43,7 +43,7 @@ TEST(Navigator, WalksByItsSpeed) {
 
 TEST(Navigator, TurnsInItsPlace) {
   Navigator navigator(camera(), 1.0);
-  // A quarter to the right: from -z to +x.
+  // A quarter turn to the right: from -z to +x.
   navigator.move({dvec3(0.0), {std::acos(0.0), 0.0}, 0.0}, 1.0);
   expect_close(navigator.camera().eye, dvec3(0.0, 0.0, 5.0));
   expect_close(navigator.camera().target, dvec3(5.0, 0.0, 5.0));
@@ -79,7 +79,7 @@ TEST(Navigator, OrbitsAtItsDistance) {
 TEST(Pacer, HoldsTheTimeAskedFor) {
   Pacer pacer;
   EXPECT_LT(pacer.scale(33.0), 1.0);
-  // What a frame of the window's size costs, and what every frame does beside.
+  // Frames that take full_ms for all pixels of the window, and 5 ms for everything else.
   for (const double full_ms : {5.0, 40.0, 400.0, 100000.0}) {
     Pacer learning;
     for (int i = 0; i < 30; ++i) {
@@ -91,7 +91,7 @@ TEST(Pacer, HoldsTheTimeAskedFor) {
       EXPECT_EQ(scale, 1.0);
     } else if (full_ms < 1000.0) {
       EXPECT_LE(full_ms * scale * scale, 28.0);
-      // A step of the scale less than could be.
+      // The next larger scale would take too long.
       EXPECT_GT(full_ms * (scale + 1.0 / 32.0) * (scale + 1.0 / 32.0), 28.0);
     } else {
       EXPECT_EQ(scale, Pacer::kLeast);
@@ -109,7 +109,7 @@ TEST(Pacer, FollowsACostThatChanges) {
   };
   see(10.0, 10);
   EXPECT_EQ(pacer.scale(33.0), 1.0);
-  // Half of it is known after a frame, and all but all after five.
+  // Each frame halves the error of the estimate: after five it is small.
   see(300.0, 1);
   EXPECT_LT(pacer.scale(33.0), 0.5);
   see(300.0, 4);
@@ -125,7 +125,7 @@ class Script : public ::testing::Test {
     return read_script(folder_ / "script");
   }
 
-  // What is said of it.
+  // The message of the error, empty if there is none.
   std::string complaint(const std::string& text) {
     try {
       read(text);

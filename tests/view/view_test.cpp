@@ -1,5 +1,5 @@
-// The viewer in a real window, on a display of the test's own, with hands on keyboard and mouse.
-// Everything runs under validation, whose messages make the exit code 70.
+// The viewer in a real window, on an X display of the test's own, worked by keyboard and mouse.
+// Everything runs under Vulkan's validation layer, whose messages make the exit code 70.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -27,14 +27,14 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Asks again and again, up to a minute, until it is so.
+// Asks four times a second until it is so, for a minute at most.
 void wait_until(const std::function<bool()>& is_so) {
   for (int i = 0; i < 240 && !is_so(); ++i) std::this_thread::sleep_for(250ms);
 }
 
 class View : public ::testing::Test {
  protected:
-  // Runs `trisect view` with a script, to its end.
+  // Runs `trisect view` with this script until it ends.
   test::ProgramRun view(const std::string& script, std::vector<std::string> more = {},
                         const std::string& model = test::asset_path("sphere-20")) {
     std::ofstream(folder_ / "script") << script;
@@ -48,7 +48,7 @@ class View : public ::testing::Test {
   [[nodiscard]] std::vector<std::string> environment() const {
     std::vector<std::string> all{display_.environment(),
                                  "XDG_CACHE_HOME=" + (folder_ / "cache").string()};
-    // Mesa's compiled shaders stay where they are: without them every kernel takes a second.
+    // Mesa's shader cache stays where it is: without it every kernel takes a second to compile.
     const char* home = std::getenv("HOME");
     const char* kept = std::getenv("XDG_CACHE_HOME");
     if (kept != nullptr) {
@@ -64,7 +64,7 @@ class View : public ::testing::Test {
     return nlohmann::json::parse(file);
   }
 
-  // The file's bytes are those of what `trisect render` writes with these options.
+  // Expects the bytes of the file to be those that `trisect render` writes with these options.
   void expect_rendered(const std::string& file, std::vector<std::string> options) {
     const std::string other = folder_ / "rendered.png";
     options.insert(options.begin(), "render");
@@ -152,13 +152,13 @@ TEST_F(View, ReloadsShadersAndKeepsTheOldOnesIfTheyAreBroken) {
     return pixel.find("0000FF") != std::string::npos;
   };
   EXPECT_FALSE(is_blue(middle()));
-  // Everything that is hit becomes blue.
+  // A shading that paints the model blue.
   std::string shading = test::content_of(shaders / "shading.glsl");
   const std::string end = "return vec3((real(0.5) + g * real(0.25)) * f + AMBIENT);";
   ASSERT_NE(shading.find(end), std::string::npos);
   shading.replace(shading.find(end), end.size(), "return vec3(0.0, 0.0, 1.0);");
   std::ofstream(shaders / "shading.glsl") << shading;
-  // Compiling takes its time, by glslang and by the driver.
+  // glslang and the driver take a while to compile it.
   wait_until([&] { return is_blue(middle()); });
   EXPECT_TRUE(is_blue(middle()));
   std::ofstream(shaders / "shading.glsl") << "this is no shader\n";
@@ -172,13 +172,13 @@ TEST_F(View, ReloadsShadersAndKeepsTheOldOnesIfTheyAreBroken) {
 TEST_F(View, WalksByRealKeysAndTurnsByTheMouse) {
   display_.manage_windows();
   const std::string saved = folder_ / "saved.png";
-  // It ends when the window manager closes the window; the script ends a test that fails.
+  // The program ends when the window manager closes the window, or by the script if the test fails.
   auto run = std::async(std::launch::async, [&] {
     return view("0 press tab\n120 quit\n", {"--screenshot", saved});
   });
   const std::string window = display_.window_called("trisect: sphere-20");
   const auto picture = [&] { return display_.pixel(window, 160, 120, 100); };
-  // Once it is refined nothing changes.
+  // Waits until the picture is refined, which is when it stops changing.
   const auto at_rest = [&] {
     std::string last;
     wait_until([&] { return std::exchange(last, picture()) == last; });
@@ -237,7 +237,7 @@ TEST_F(View, IsMinimisedRestoredAndClosed) {
   ASSERT_EQ(done.exit_code, 0) << done.out << done.err;
 }
 
-// Three seconds are a hundred frames of a window that draws all the time.
+// A window that draws all the time would draw about a hundred frames in three seconds.
 TEST_F(View, DrawsNothingAtRest) {
   const test::ProgramRun run = view("3 quit\n");
   ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
