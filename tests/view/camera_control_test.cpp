@@ -12,7 +12,8 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 
-constexpr double kClose = 1e-9;
+// Far less than any motion of these tests, far more than their rounding errors.
+constexpr double kSmallMotion = 1e-9;
 
 class CameraControlTest : public ::testing::Test {
  protected:
@@ -35,7 +36,7 @@ class CameraControlTest : public ::testing::Test {
 
   [[nodiscard]] dvec3 eye() const { return control_.camera().eye; }
   [[nodiscard]] dvec3 target() const { return control_.camera().target; }
-  [[nodiscard]] bool has_turned() const { return glm::length(target()) > kClose; }
+  [[nodiscard]] bool has_turned() const { return glm::length(target()) > kSmallMotion; }
 
   Clock::time_point now_{std::chrono::hours(1)};
   CameraControl control_{now_};
@@ -46,9 +47,9 @@ TEST_F(CameraControlTest, WalksWhileKeysAreHeld) {
   state.keys.ahead = true;
   move(state);
   // The speed is the radius of the scene, 2, in a second.
-  EXPECT_LT(glm::distance(eye(), dvec3(0.0, 0.0, 4.9)), kClose);
+  EXPECT_LT(glm::distance(eye(), dvec3(0.0, 0.0, 4.9)), kSmallMotion);
   move({});
-  EXPECT_LT(glm::distance(eye(), dvec3(0.0, 0.0, 4.9)), kClose);
+  EXPECT_LT(glm::distance(eye(), dvec3(0.0, 0.0, 4.9)), kSmallMotion);
 }
 
 TEST_F(CameraControlTest, OppositeKeysCancel) {
@@ -61,7 +62,7 @@ TEST_F(CameraControlTest, DoesNotJumpAfterAPause) {
   ControlState state;
   state.keys.right = true;
   move(state, 60.0);
-  EXPECT_LT(glm::distance(eye(), dvec3(0.2, 0.0, 5.0)), kClose);
+  EXPECT_LT(glm::distance(eye(), dvec3(0.2, 0.0, 5.0)), kSmallMotion);
 }
 
 TEST_F(CameraControlTest, TheWheelSetsTheSpeed) {
@@ -70,12 +71,12 @@ TEST_F(CameraControlTest, TheWheelSetsTheSpeed) {
   control_.turn_wheel(1.0);
   control_.turn_wheel(1.0);
   move({});
-  EXPECT_LT(glm::distance(eye(), dvec3(0.0, 0.0, 5.0)), kClose);
+  EXPECT_LT(glm::distance(eye(), dvec3(0.0, 0.0, 5.0)), kSmallMotion);
   move(state);
-  EXPECT_LT(glm::distance(eye(), dvec3(0.0, 0.0, 5.0 - 0.1 * 1.25 * 1.25)), kClose);
+  EXPECT_LT(glm::distance(eye(), dvec3(0.0, 0.0, 5.0 - 0.1 * 1.25 * 1.25)), kSmallMotion);
   // Each step counts once.
   move(state);
-  EXPECT_LT(glm::distance(eye(), dvec3(0.0, 0.0, 5.0 - 0.2 * 1.25 * 1.25)), kClose);
+  EXPECT_LT(glm::distance(eye(), dvec3(0.0, 0.0, 5.0 - 0.2 * 1.25 * 1.25)), kSmallMotion);
 }
 
 TEST_F(CameraControlTest, TurnsWhileTheButtonIsDown) {
@@ -89,9 +90,9 @@ TEST_F(CameraControlTest, TurnsWhileTheButtonIsDown) {
   move(at(260.0, 100.0, true));
   // 100 pixels of 0.004 radians to the right.
   EXPECT_LT(glm::distance(target(), dvec3(5.0 * std::sin(0.4), 0.0, 5.0 - 5.0 * std::cos(0.4))),
-            kClose);
+            kSmallMotion);
   move(at(260.0, 90.0, true));
-  EXPECT_GT(target().y, kClose);
+  EXPECT_GT(target().y, kSmallMotion);
   move(at(260.0, 90.0, false));
   EXPECT_FALSE(control_.is_turning());
 }
@@ -146,15 +147,15 @@ TEST_F(CameraControlTest, OrbitsAroundTheTarget) {
   state.orbits = true;
   control_.turn_wheel(1.0);
   move(state);
-  EXPECT_LT(glm::distance(eye(), dvec3(0.0, 0.0, 4.5)), kClose);
+  EXPECT_LT(glm::distance(eye(), dvec3(0.0, 0.0, 4.5)), kSmallMotion);
   state.cursor = dvec2(0.0);
   state.button_is_down = true;
   move(state);
   state.cursor = dvec2(50.0, 0.0);
   move(state);
   EXPECT_FALSE(has_turned());
-  EXPECT_NEAR(glm::length(eye()), 4.5, kClose);
-  EXPECT_GT(std::abs(eye().x), kClose);
+  EXPECT_NEAR(glm::length(eye()), 4.5, kSmallMotion);
+  EXPECT_GT(std::abs(eye().x), kSmallMotion);
 }
 
 }  // namespace
