@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/json_text.h"
+
 namespace trisect::bench {
 namespace {
 

@@ -15,6 +15,7 @@
 #include "app/bench/commands.h"
 #include "app/bench/contender.h"
 #include "app/bench/sample_check.h"
+#include "app/bench/speed_report.h"
 #include "app/cli/cache_folder.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/json_text.h"
@@ -161,44 +162,33 @@ class Race {
   double flat_error_ = 0.0;
 };
 
-constexpr const char* kSpeedHeader =
-    "| model | surface | contender | ms | least | most | of the thesis | of the image | wrong | of "
-    "| KB | build ms |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
-
-void report(const std::string& model, uint surface, const Race& race,
-            nlohmann::ordered_json& json) {
-  const double floor = spread_of(race.rows()[0].times).median;
-  const double thesis = spread_of(race.rows()[1].times).median;
-  for (const Runner& row : race.rows()) {
-    const Spread ms = spread_of(row.times);
-    const std::size_t pixels = row.check != nullptr ? row.check->pixels() : 0;
-    const std::size_t bytes = row.contender->bytes();
-    fmt::print(
-        "| {} | {} | {} | {:.1f} | {:.1f} | {:.1f} | {:.3f} | {:.1f} | {} | {} | {} | {} |\n",
-        model_name(model), surface_name(surface), row.name, ms.median, ms.min, ms.max,
-        ms.median / thesis, ms.median / floor,
-        row.check != nullptr ? fmt::to_string(row.wrong) : "",
-        row.check != nullptr ? fmt::to_string(pixels) : "", bytes / 1024,
-        row.build ? fmt::format("{:.0f}", *row.build) : "");
-    nlohmann::ordered_json one;
-    one["model"] = model;
-    one["surface"] = surface_name(surface);
-    one["patches"] = race.patches();
-    one["contender"] = row.name;
-    one["ms"] = json_of(ms);
-    if (row.check != nullptr) {
-      one["checked_pixels"] = pixels;
-      one["wrong_pixels"] = row.wrong;
+// The measurements of a race that has run.
+std::vector<bench::SpeedRow> rows_of(const std::string& model, uint surface, const Race& race) {
+  const double floor_ms = spread_of(race.rows()[0].times).median;
+  const double thesis_ms = spread_of(race.rows()[1].times).median;
+  std::vector<bench::SpeedRow> rows;
+  for (const Runner& runner : race.rows()) {
+    bench::SpeedRow row;
+    row.model = model;
+    row.surface = surface;
+    row.patches = race.patches();
+    row.contender = runner.name;
+    row.ms = spread_of(runner.times);
+    row.thesis_ms = thesis_ms;
+    row.floor_ms = floor_ms;
+    if (runner.check != nullptr) {
+      row.checked_pixels = runner.check->pixels();
+      row.wrong_pixels = runner.wrong;
     }
-    one["bytes"] = bytes;
-    if (row.build) one["build_ms"] = *row.build;
-    if (row.name.starts_with("Embree")) {
-      one["flat_triangles"] = race.flat_triangles();
-      one["flat_error"] = race.flat_error();
+    row.bytes = runner.contender->bytes();
+    row.build_ms = runner.build;
+    if (runner.name.starts_with("Embree")) {
+      row.flat_triangles = race.flat_triangles();
+      row.flat_error = race.flat_error();
     }
-    json["rows"].push_back(one);
+    rows.push_back(row);
   }
-  std::fflush(stdout);
+  return rows;
 }
 
 }  // namespace
@@ -210,7 +200,8 @@ int bench_speed(const BenchOptions& options) {
   std::optional<AtomicFile> file;
   if (!options.json.empty()) file.emplace(options.json);
   fmt::print("device {}, driver {}, {}x{}, medians of {} runs\n\n{}", device.report().name,
-             device.report().driver, options.width, options.height, options.runs, kSpeedHeader);
+             device.report().driver, options.width, options.height, options.runs,
+             bench::speed_table_header());
   std::fflush(stdout);
   nlohmann::ordered_json json;
   json["device"] = device.report().name;
@@ -223,7 +214,11 @@ int bench_speed(const BenchOptions& options) {
     for (const uint surface : options.surfaces) {
       Race race(device, options, model, surface);
       race.run();
-      report(model, surface, race, json);
+      for (const bench::SpeedRow& row : rows_of(model, surface, race)) {
+        fmt::print("{}", bench::speed_table_row(row));
+        json["rows"].push_back(bench::json_of(row));
+      }
+      std::fflush(stdout);
     }
   }
   if (file) {

@@ -9,6 +9,7 @@
 #include "app/bake/subpatch_bounds.h"
 #include "app/base/atomic_file.h"
 #include "app/base/error.h"
+#include "app/cli/accuracy_report.h"
 #include "app/cli/cache_folder.h"
 #include "app/cli/commands.h"
 #include "app/cli/interrupt.h"
@@ -31,15 +32,6 @@ constexpr double kOffSurfaceP99 = 2.5e-7;
 constexpr double kOffSurfaceMax = 2e-6;
 constexpr double kNormalDegreesP99 = 0.05;
 
-struct Row {
-  std::string model;
-  SurfaceChoice choice;
-  uint solver = SOLVER_ROBUST;
-  Accuracy accuracy;
-  std::size_t cpu_differs = 0;  // pixels whose hit, patch, Z, U or V the CPU has other bits of
-  double gpu_ms = 0.0;
-};
-
 bool keeps_promise(const Accuracy& a) {
   return a.wrong_hits == 0 && a.missed == 0 && a.wrong_patches == 0 && a.nans == 0 &&
          static_cast<double>(a.undecidable) <= kMostUndecidable * static_cast<double>(a.pixels) &&
@@ -59,9 +51,9 @@ std::size_t count_differences(const Frame& a, const Frame& b) {
   return count;
 }
 
-Row measure(const gpu::Device& device, const BakedScene& scene, const TraceSettings& settings,
-            const OracleFrame& truth) {
-  Row row;
+AccuracyRow measure(const gpu::Device& device, const BakedScene& scene,
+                    const TraceSettings& settings, const OracleFrame& truth) {
+  AccuracyRow row;
   row.choice = scene.choice;
   row.solver = settings.solver;
   const TraceParams params = make_params(scene, settings);
@@ -78,10 +70,15 @@ Row measure(const gpu::Device& device, const BakedScene& scene, const TraceSetti
   return row;
 }
 
-std::vector<Row> measure_model(const gpu::Device& device, const AccuracyOptions& options,
-                               const std::string& model) {
+std::string verdict(const AccuracyRow& row) {
+  if (row.solver == SOLVER_BISECT) return "";
+  return keeps_promise(row.accuracy) ? "pass" : "FAIL";
+}
+
+std::vector<AccuracyRow> measure_model(const gpu::Device& device, const AccuracyOptions& options,
+                                       const std::string& model) {
   const Mesh mesh = build_mesh(read_obj(model), model).mesh;
-  std::vector<Row> rows;
+  std::vector<AccuracyRow> rows;
   for (const uint surface : options.surfaces) {
     for (const uint shell : options.shells) {
       const BakedScene scene = bake_with_subpatches(mesh, {surface, options.alpha, shell});
@@ -93,57 +90,11 @@ std::vector<Row> measure_model(const gpu::Device& device, const AccuracyOptions&
         settings.solver = solver;
         rows.push_back(measure(device, scene, settings, truth));
         rows.back().model = model;
+        rows.back().verdict = verdict(rows.back());
       }
     }
   }
   return rows;
-}
-
-std::string verdict(const Row& row) {
-  if (row.solver == SOLVER_BISECT) return "";
-  return keeps_promise(row.accuracy) ? "pass" : "FAIL";
-}
-
-std::string markdown_of(const Row& row) {
-  const Accuracy& a = row.accuracy;
-  return fmt::format(
-      "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.1e} | {:.1e} | {:.1e} | {:.2g} | {:.2g} | "
-      "{:.4f} | "
-      "{:.1f} | {} | {:.0f} | {} |\n",
-      model_name(row.model), surface_name(row.choice.surface), shell_name(row.choice.shell),
-      solver_name(row.solver), a.hits, a.undecidable, a.wrong_hits, a.missed, a.wrong_patches,
-      a.off_surface.p50, a.off_surface.p99, a.off_surface.max, a.depth_ulp.p50, a.depth_ulp.p99,
-      a.normal_degrees.p99, a.median_evaluations, row.cpu_differs, row.gpu_ms, verdict(row));
-}
-
-constexpr const char* kHeader =
-    "| model | surface | shell | solver | hit | undecidable | wrong hit | missed | wrong patch | "
-    "off p50 | "
-    "off p99 | off max | ulp p50 | ulp p99 | normal p99 | evals | cpu differs | ms | |\n"
-    "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
-
-nlohmann::ordered_json json_of(const Row& row) {
-  const Accuracy& a = row.accuracy;
-  nlohmann::ordered_json json;
-  json["model"] = row.model;
-  json["surface"] = surface_name(row.choice.surface);
-  json["shell"] = shell_name(row.choice.shell);
-  json["solver"] = solver_name(row.solver);
-  json["pixels"] = a.pixels;
-  json["hits"] = a.hits;
-  json["undecidable"] = a.undecidable;
-  json["wrong_hits"] = a.wrong_hits;
-  json["missed"] = a.missed;
-  json["wrong_patches"] = a.wrong_patches;
-  json["nans"] = a.nans;
-  json["off_surface"] = json_of(a.off_surface);
-  json["depth_ulp"] = json_of(a.depth_ulp);
-  json["normal_degrees"] = json_of(a.normal_degrees);
-  json["evals_per_candidate"] = a.median_evaluations;
-  json["cpu_differs"] = row.cpu_differs;
-  json["gpu_ms"] = row.gpu_ms;
-  json["verdict"] = verdict(row);
-  return json;
 }
 
 }  // namespace
@@ -155,7 +106,7 @@ int accuracy(const AccuracyOptions& options) {
   std::optional<AtomicFile> file;
   if (!options.json.empty()) file.emplace(options.json);
   fmt::print("device {}, driver {}, {}x{}\n\n{}", device.report().name, device.report().driver,
-             options.width, options.height, kHeader);
+             options.width, options.height, accuracy_table_header());
   nlohmann::ordered_json json;
   json["device"] = device.report().name;
   json["driver"] = device.report().driver;
@@ -164,8 +115,8 @@ int accuracy(const AccuracyOptions& options) {
   json["rows"] = nlohmann::ordered_json::array();
   bool kept = true;
   for (const std::string& model : options.models) {
-    for (const Row& row : measure_model(device, options, model)) {
-      fmt::print("{}", markdown_of(row));
+    for (const AccuracyRow& row : measure_model(device, options, model)) {
+      fmt::print("{}", accuracy_table_row(row));
       std::fflush(stdout);
       json["rows"].push_back(json_of(row));
       kept = kept && (row.solver == SOLVER_BISECT || keeps_promise(row.accuracy));

@@ -8,6 +8,7 @@
 #include "app/base/error.h"
 #include "app/cli/cache_folder.h"
 #include "app/cli/commands.h"
+#include "app/cli/hardcases_report.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/json_text.h"
 #include "app/dispatch/pipeline_store.h"
@@ -16,47 +17,6 @@
 
 namespace trisect {
 namespace {
-
-// The row's figures, in the order of the table's columns.
-void print_header() {
-  fmt::print("{:<23} {:<7} {:<7} {:<7} {:>5} {:>6} {:>6} {:>6} {:>8} {:>8} {:>9} {:>5} {:>8}  {}\n",
-             "case", "surface", "shell", "solver", "rays", "undec.", "wrong", "missed", "p50 ulp",
-             "p99 ulp", "max ulp", "NaNs", "eval/ray", "verdict");
-}
-
-void print_row(const StressRow& row) {
-  const CheckedOutcome& outcome = row.outcome;
-  fmt::print(
-      "{:<23} {:<7} {:<7} {:<7} {:>5} {:>6} {:>6} {:>6} {:>8.3g} {:>8.3g} {:>9.3g} {:>5} {:>8.1f}  "
-      "{}{}\n",
-      row.name, surface_name(row.surface), shell_name(row.shell), solver_name(row.solver),
-      outcome.rays, outcome.undecidable, outcome.wrong, outcome.missed, row.error_ulp(0.5),
-      row.error_ulp(0.99), row.error_ulp(1.0), outcome.nans, row.evaluations_per_ray(), row.verdict,
-      outcome.note.empty() ? "" : fmt::format(" ({})", outcome.note));
-}
-
-nlohmann::ordered_json json_of(const StressRow& row) {
-  const CheckedOutcome& outcome = row.outcome;
-  return {{"case", row.name},
-          {"what", row.what},
-          {"kind", kind_name(row.kind)},
-          {"surface", surface_name(row.surface)},
-          {"shell", shell_name(row.shell)},
-          {"solver", solver_name(row.solver)},
-          {"rank", row.rank},
-          {"rays", outcome.rays},
-          {"undecidable", outcome.undecidable},
-          {"most_undecidable", row.most_undecidable},
-          {"wrong", outcome.wrong},
-          {"missed", outcome.missed},
-          {"depth_error_ulp_p50", row.error_ulp(0.5)},
-          {"depth_error_ulp_p99", row.error_ulp(0.99)},
-          {"depth_error_ulp_max", row.error_ulp(1.0)},
-          {"nans", outcome.nans},
-          {"evaluations_per_ray", row.evaluations_per_ray()},
-          {"verdict", row.verdict},
-          {"note", outcome.note}};
-}
 
 std::string to_json(const StressBackend& backend, const std::vector<StressRow>& rows) {
   nlohmann::ordered_json json;
@@ -72,7 +32,7 @@ std::string to_json(const StressBackend& backend, const std::vector<StressRow>& 
 std::vector<StressRow> run_all(const StressBackend& backend) {
   std::vector<StressRow> rows;
   const auto add = [&](StressRow row) {
-    print_row(row);
+    fmt::print("{}", hardcases_row(row));
     rows.push_back(std::move(row));
     stop_if_interrupted();
   };
@@ -89,7 +49,7 @@ int run_on(const HardcasesOptions& options, const StressBackend& backend) {
   std::optional<AtomicFile> json;
   if (!options.json.empty()) json.emplace(options.json);
   fmt::print("device {}, driver {}\n", backend.device, backend.driver);
-  print_header();
+  fmt::print("{}", hardcases_header());
   const std::vector<StressRow> rows = run_all(backend);
   const BindingRows binding = count_binding(rows);
   fmt::print(

@@ -1,0 +1,31 @@
+// The table and the JSON of `trisect accuracy`.
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "app/accuracy/accuracy.h"
+#include "app/surface/surface_choice.h"
+
+namespace trisect {
+
+// One solver's frame of one model, surface and shell.
+struct AccuracyRow {
+  std::string model;  // path of the OBJ file
+  SurfaceChoice choice;
+  uint solver = SOLVER_ROBUST;
+  Accuracy accuracy;
+  // Pixels in which the CPU's frame has other bits of the hit, the patch, Z, U or V.
+  std::size_t cpu_differs = 0;
+  double gpu_ms = 0.0;
+  std::string verdict;  // "pass" or "FAIL"; empty for solvers that promise nothing
+};
+
+// Markdown, a line at a time, so that rows can be printed as soon as they are measured.
+std::string accuracy_table_header();
+std::string accuracy_table_row(const AccuracyRow& row);
+
+nlohmann::ordered_json json_of(const AccuracyRow& row);
+
+}  // namespace trisect
