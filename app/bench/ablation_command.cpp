@@ -8,7 +8,6 @@
 #include "app/bench/ablation.h"
 #include "app/bench/ablation_report.h"
 #include "app/bench/commands.h"
-#include "app/bench/document.h"
 #include "app/bench/gnuplot.h"
 #include "app/bench/provenance.h"
 #include "app/bench/report_files.h"
@@ -17,6 +16,7 @@
 #include "app/dispatch/pipeline_store.h"
 #include "app/mesh/mesh_builder.h"
 #include "app/mesh/obj_file.h"
+#include "app/report/document.h"
 
 namespace trisect {
 
@@ -42,29 +42,29 @@ int bench_ablation(const AblationOptions& options) {
       bench::program_and_date(),
       fmt::format("{}x{} pixels, {} frames each after a warm-up, in turns", options.width,
                   options.height, options.runs)};
-  std::vector<bench::Block> report{
-      bench::Heading{1, title},
-      bench::Paragraph{
+  std::vector<report::Block> blocks{
+      report::Heading{1, title},
+      report::Paragraph{
           "From the thesis's way of making a frame to this program's, each step by one change to "
           "the step that `from` names. error, wrong and missed: against the oracle, as in the "
           "report of speed against error; each shell is judged by its own surface. Evaluations are "
           "of the field (bisection) or of the surface with its derivatives (robust); candidates "
           "are the triangles or parts that a ray is tried on."},
-      bench::Items{facts}};
+      report::Items{facts}};
   for (const Ablation& ablation : ablations) {
     const std::string name = name_of(ablation);
     folder.plot(name, [&](const std::string& terminal, const std::string& file) {
       return plot_script(ablation, terminal, file);
     });
-    report.emplace_back(
-        bench::Heading{2, fmt::format("{}, {} ({} patches)", ablation.model,
-                                      surface_name(ablation.surface), ablation.patches)});
-    report.emplace_back(bench::Picture{name + ".svg", "Milliseconds and wrong pixels, " + name});
-    report.emplace_back(table_of(ablation));
+    blocks.emplace_back(
+        report::Heading{2, fmt::format("{}, {} ({} patches)", ablation.model,
+                                       surface_name(ablation.surface), ablation.patches)});
+    blocks.emplace_back(report::Picture{name + ".svg", "Milliseconds and wrong pixels, " + name});
+    blocks.emplace_back(table_of(ablation));
   }
   folder.write("ablation.json", json_text({{"facts", facts}, {"ablations", json_of(ablations)}}));
-  folder.write("ablation.md", bench::markdown_of(report));
-  folder.write("ablation.html", bench::html_of(title, report, folder.path()));
+  folder.write("ablation.md", report::markdown_of(blocks));
+  folder.write("ablation.html", report::html_of(title, blocks, folder.path()));
   fmt::print("{}\n", (folder.path() / "ablation.md").string());
   return exit_done;
 }

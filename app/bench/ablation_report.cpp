@@ -22,9 +22,9 @@ std::string name_of(const Ablation& ablation) {
   return ablation.model + "-" + surface_name(ablation.surface);
 }
 
-Table table_of(const Ablation& ablation) {
-  Table table{{{"", "change", "from", "ms", "times as fast", "error", "wrong or missed",
-                "evaluations a pixel", "candidates a pixel", "bytes a pixel"}}};
+report::Table table_of(const Ablation& ablation) {
+  report::Table table{{{"", "change", "from", "ms", "times as fast", "error", "wrong or missed",
+                        "evaluations a pixel", "candidates a pixel", "bytes a pixel"}}};
   for (std::size_t i = 0; i < ablation.steps.size(); ++i) {
     const Step& step = ablation.steps[i];
     const Measurement& m = step.measurement;

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "app/bench/ablation.h"
-#include "app/bench/document.h"
+#include "app/report/document.h"
 
 namespace trisect::bench {
 
 // One row per step.
-Table table_of(const Ablation& ablation);
+report::Table table_of(const Ablation& ablation);
 
 nlohmann::ordered_json json_of(const std::vector<Ablation>& ablations);
 

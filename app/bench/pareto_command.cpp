@@ -9,7 +9,6 @@
 #include "app/base/atomic_file.h"
 #include "app/base/error.h"
 #include "app/bench/commands.h"
-#include "app/bench/document.h"
 #include "app/bench/gnuplot.h"
 #include "app/bench/pareto.h"
 #include "app/bench/pareto_report.h"
@@ -24,11 +23,12 @@
 #include "app/mesh/obj_file.h"
 #include "app/opengl/context.h"
 #include "app/picture/image_file.h"
+#include "app/report/document.h"
 
 namespace trisect {
 namespace {
 
-using bench::Block;
+using report::Block;
 
 std::vector<std::string> provenance(const gpu::Device& device, const opengl::Context& context,
                                     const ParetoOptions& options) {
@@ -44,9 +44,9 @@ std::vector<Block> report_of(const std::vector<bench::Scene>& scenes,
                              const std::vector<std::string>& facts,
                              const std::optional<bench::StressTable>& hard) {
   std::vector<Block> blocks;
-  blocks.emplace_back(bench::Heading{1, "Speed against error"});
-  blocks.emplace_back(bench::Items{facts});
-  blocks.emplace_back(bench::Paragraph{
+  blocks.emplace_back(report::Heading{1, "Speed against error"});
+  blocks.emplace_back(report::Items{facts});
+  blocks.emplace_back(report::Paragraph{
       "Every contender draws the same pixels with the same shading. error: the root of the mean "
       "square of the distance off the true surface over the scene's radius, over all pixels that "
       "it or the oracle hits; a pixel that only one of them hits counts as off by the radius. The "
@@ -60,19 +60,20 @@ std::vector<Block> report_of(const std::vector<bench::Scene>& scenes,
       "loads. KB: the scene without images. front: nothing is both faster and more exact."});
   for (const bench::Scene& scene : scenes) {
     const std::string name = bench::name_of(scene);
-    blocks.emplace_back(bench::Heading{2, fmt::format("{}, {} ({} patches)", scene.model,
-                                                      surface_name(scene.surface), scene.patches)});
-    blocks.emplace_back(bench::Picture{name + ".svg", "Milliseconds over error, " + name});
-    blocks.emplace_back(bench::Items{bench::findings_of(scene)});
+    blocks.emplace_back(
+        report::Heading{2, fmt::format("{}, {} ({} patches)", scene.model,
+                                       surface_name(scene.surface), scene.patches)});
+    blocks.emplace_back(report::Picture{name + ".svg", "Milliseconds over error, " + name});
+    blocks.emplace_back(report::Items{bench::findings_of(scene)});
     blocks.emplace_back(bench::table_of(scene));
-    blocks.emplace_back(bench::Paragraph{
+    blocks.emplace_back(report::Paragraph{
         "The truth in the height shell, the thesis's bisection at Rank 10, their difference and "
         "where they differ:"});
-    blocks.emplace_back(bench::Picture{name + "-thesis.png", "Four pictures, " + name});
+    blocks.emplace_back(report::Picture{name + "-thesis.png", "Four pictures, " + name});
   }
   if (hard) {
-    blocks.emplace_back(bench::Heading{2, "Hard cases"});
-    blocks.emplace_back(bench::Paragraph{
+    blocks.emplace_back(report::Heading{2, "Hard cases"});
+    blocks.emplace_back(report::Paragraph{
         "`trisect hardcases` on " + hard->device +
         ". ulp: depth error across the surface in units of 2^-23 of the scene's radius (in images "
         "of the eye's distance). The robust solver must pass in the normal shell; the height "
@@ -118,9 +119,9 @@ int bench_pareto(const ParetoOptions& options) {
   folder.write("report.csv",
                fmt::format("# {}\n{}", fmt::join(facts, "\n# "), bench::csv_of(scenes)));
   folder.write("report.json", json_text({{"facts", facts}, {"scenes", bench::json_of(scenes)}}));
-  const std::vector<Block> report = report_of(scenes, facts, hard);
-  folder.write("report.md", bench::markdown_of(report));
-  folder.write("report.html", bench::html_of("Speed against error", report, folder.path()));
+  const std::vector<Block> blocks = report_of(scenes, facts, hard);
+  folder.write("report.md", report::markdown_of(blocks));
+  folder.write("report.html", report::html_of("Speed against error", blocks, folder.path()));
   fmt::print("{}\n", (folder.path() / "report.md").string());
   return exit_done;
 }

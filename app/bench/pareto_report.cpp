@@ -161,10 +161,10 @@ std::vector<std::string> findings_of(const Scene& scene) {
   return findings;
 }
 
-Table table_of(const Scene& scene) {
-  Table table{{{"contender", "ms", "least", "most", "error", "wrong", "missed", "off p50",
-                "off p99", "off max", "ulp p99", "normal p99", "outline", "RMSE", "PSNR",
-                "evaluations", "MB read", "KB", "front"}}};
+report::Table table_of(const Scene& scene) {
+  report::Table table{{{"contender", "ms", "least", "most", "error", "wrong", "missed", "off p50",
+                        "off p99", "off max", "ulp p99", "normal p99", "outline", "RMSE", "PSNR",
+                        "evaluations", "MB read", "KB", "front"}}};
   for (const Measurement& m : scene.measurements) {
     const FrameErrors& e = m.errors;
     table.rows.push_back(

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/bench/document.h"
 #include "app/bench/pareto.h"
+#include "app/report/document.h"
 
 namespace trisect::bench {
 
@@ -23,7 +23,7 @@ std::vector<std::string> findings_of(const Scene& scene);
 std::string plot_script(const Scene& scene, const std::string& terminal, const std::string& file);
 
 // The scene's table.
-Table table_of(const Scene& scene);
+report::Table table_of(const Scene& scene);
 
 // "teapot-phong": of its files.
 std::string name_of(const Scene& scene);

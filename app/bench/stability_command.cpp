@@ -6,13 +6,13 @@
 
 #include "app/base/error.h"
 #include "app/bench/commands.h"
-#include "app/bench/document.h"
 #include "app/bench/gnuplot.h"
 #include "app/bench/provenance.h"
 #include "app/bench/report_files.h"
 #include "app/bench/stability.h"
 #include "app/bench/stability_report.h"
 #include "app/cli/json_text.h"
+#include "app/report/document.h"
 
 namespace trisect {
 
@@ -24,9 +24,9 @@ int bench_stability(const StabilityOptions& options) {
   const std::vector<StabilityAxis> axes = bench::measure_stability(options.rays);
   const std::string title = "Numerical stability";
   const std::string program = bench::program_and_date();
-  std::vector<bench::Block> report{
-      bench::Heading{1, title},
-      bench::Paragraph{fmt::format(
+  std::vector<report::Block> blocks{
+      report::Heading{1, title},
+      report::Paragraph{fmt::format(
           "{} rays for each value, Phong Tessellation, by the kernels as C++ in single precision, "
           "which agree with Vulkan's bit for bit. error: the root of the mean square of the "
           "distance off the surface over the scene's radius, over the rays that the oracle "
@@ -35,18 +35,18 @@ int bench_stability(const StabilityOptions& options) {
           "its own surface. Where it is not varied the angle is 50 degrees; distance, scale and "
           "grazing are of a sphere of 80 patches, the others of one patch.",
           options.rays)},
-      bench::Items{{program}}, bench::Picture{"stability.svg", "Errors over what is varied"}};
+      report::Items{{program}}, report::Picture{"stability.svg", "Errors over what is varied"}};
   for (const StabilityAxis& axis : axes) {
-    report.emplace_back(bench::Heading{2, axis.what});
-    report.emplace_back(table_of(axis));
+    blocks.emplace_back(report::Heading{2, axis.what});
+    blocks.emplace_back(table_of(axis));
   }
   folder.plot("stability", [&](const std::string& terminal, const std::string& file) {
     return plot_script(axes, terminal, file);
   });
   folder.write("stability.csv", csv_of(axes));
   folder.write("stability.json", json_text({{"program", program}, {"curves", json_of(axes)}}));
-  folder.write("stability.md", bench::markdown_of(report));
-  folder.write("stability.html", bench::html_of(title, report, folder.path()));
+  folder.write("stability.md", report::markdown_of(blocks));
+  folder.write("stability.html", report::html_of(title, blocks, folder.path()));
   fmt::print("{}\n", (folder.path() / "stability.md").string());
   return exit_done;
 }

@@ -7,7 +7,7 @@
 
 namespace trisect::bench {
 
-Table table_of(const StabilityAxis& axis) {
+report::Table table_of(const StabilityAxis& axis) {
   std::vector<std::string> header{axis.what};
   for (const StabilityCurve& curve : axis.curves) {
     header.push_back(curve.solver + ": error");
@@ -16,7 +16,7 @@ Table table_of(const StabilityAxis& axis) {
     header.emplace_back("NaNs");
   }
   header.emplace_back("rays decided");
-  Table table{{header}};
+  report::Table table{{header}};
   for (std::size_t i = 0; i < axis.curves[0].points.size(); ++i) {
     std::vector<std::string> row{fmt::format("{:g}", axis.curves[0].points[i].value)};
     for (const StabilityCurve& curve : axis.curves) {

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "app/bench/document.h"
 #include "app/bench/stability.h"
+#include "app/report/document.h"
 
 namespace trisect::bench {
 
 // One row per value of what is varied, the solvers side by side.
-Table table_of(const StabilityAxis& axis);
+report::Table table_of(const StabilityAxis& axis);
 
 // One line per axis, solver and value.
 std::string csv_of(const std::vector<StabilityAxis>& axes);

@@ -3,13 +3,13 @@
 
 #include <string>
 
-#include "app/bench/document.h"
+#include "app/report/document.h"
 
 namespace trisect::bench {
 
 struct StressTable {
   std::string device;  // and its driver
-  Table table;
+  report::Table table;
 };
 
 // Of what `trisect hardcases --json` wrote into the file. Throws InputError, naming it, if that

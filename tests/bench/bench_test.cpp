@@ -12,9 +12,7 @@
 #include <vector>
 
 #include "app/bake/subpatch_bounds.h"
-#include "app/base/error.h"
 #include "app/bench/contender.h"
-#include "app/bench/document.h"
 #include "app/bench/frame_errors.h"
 #include "app/bench/pareto_front.h"
 #include "app/bench/sample_check.h"
@@ -175,24 +173,7 @@ TEST(ParetoFront, LeavesOutWhatSomethingBeats) {
   EXPECT_TRUE(dominating({}).empty());
 }
 
-TEST(Document, IsMarkdownAndHtml) {
-  const std::vector<Block> blocks{Heading{2, "A < B"}, Paragraph{"Text & more."},
-                                  Items{{"one", "two"}}, Table{{{"a", "b"}, {"1", "2"}}}};
-  EXPECT_EQ(markdown_of(blocks),
-            "## A < B\n\nText & more.\n\n- one\n- two\n\n| a | b |\n|---|---|\n| 1 | 2 |\n");
-  const std::string html = html_of("T", blocks, ".");
-  EXPECT_NE(html.find("<h2>A &lt; B</h2>"), std::string::npos);
-  EXPECT_NE(html.find("<td>2</td>"), std::string::npos);
-  EXPECT_THROW(html_of("T", {Picture{"none.svg", ""}}, "."), InputError);
-  // RFC 4648, section 10.
-  EXPECT_EQ(base64_of(""), "");
-  EXPECT_EQ(base64_of("f"), "Zg==");
-  EXPECT_EQ(base64_of("fo"), "Zm8=");
-  EXPECT_EQ(base64_of("foo"), "Zm9v");
-  EXPECT_EQ(base64_of("foobar"), "Zm9vYmFy");
-}
-
-// FrameErrors of frames whose error is known.
+// What is measured of frames with an error that is known.
 class FrameErrorsTest : public ::testing::Test {
  protected:
   FrameErrorsTest() {

@@ -10,11 +10,11 @@
 
 #include "app/base/error.h"
 #include "app/bench/ablation_report.h"
-#include "app/bench/document.h"
 #include "app/bench/pareto_report.h"
 #include "app/bench/speed_report.h"
 #include "app/bench/stability_report.h"
 #include "app/bench/stress_table.h"
+#include "app/report/document.h"
 #include "tests/support/temporary_folder.h"
 
 namespace trisect::bench {
@@ -28,8 +28,8 @@ std::string compact(const std::string& json) {
   return nlohmann::ordered_json::parse(json).dump();
 }
 
-std::string markdown(const Table& table) {
-  return markdown_of(std::vector<Block>{table});
+std::string markdown(const report::Table& table) {
+  return markdown_of(std::vector<report::Block>{table});
 }
 
 Measurement robust() {

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-namespace trisect::bench {
+namespace trisect::report {
 
 struct Heading {
   int level;  // 1 to 6
@@ -36,4 +36,4 @@ std::string html_of(const std::string& title, const std::vector<Block>& blocks,
 // RFC 4648, with padding.
 std::string base64_of(const std::string& bytes);
 
-}  // namespace trisect::bench
+}  // namespace trisect::report

@@ -1,4 +1,4 @@
-#include "app/bench/document.h"
+#include "app/report/document.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "app/base/error.h"
 
-namespace trisect::bench {
+namespace trisect::report {
 namespace {
 
 template <typename... F>
@@ -160,4 +160,4 @@ std::string html_of(const std::string& title, const std::vector<Block>& blocks,
   return text + "</body>\n</html>\n";
 }
 
-}  // namespace trisect::bench
+}  // namespace trisect::report
