@@ -5,15 +5,61 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/report/columns.h"
+
 namespace trisect::bench {
 namespace {
 
-double times_as_fast(const Ablation& ablation, const Step& step) {
-  return ablation.steps[step.from].measurement.ms.median / step.measurement.ms.median;
+using report::Columns;
+using report::Value;
+
+struct AblationRow {
+  const Ablation& ablation;
+  std::size_t index;  // of the step
+
+  [[nodiscard]] const Step& step() const { return ablation.steps[index]; }
+  [[nodiscard]] const Measurement& measurement() const { return step().measurement; }
+  [[nodiscard]] bool first() const { return step().from == index; }
+  [[nodiscard]] double times_as_fast() const {
+    return ablation.steps[step().from].measurement.ms.median / measurement().ms.median;
+  }
+  [[nodiscard]] double per_pixel(uint64_t count) const {
+    return static_cast<double>(count) / static_cast<double>(ablation.pixels);
+  }
+};
+
+std::vector<AblationRow> rows_of(const Ablation& ablation) {
+  std::vector<AblationRow> rows;
+  for (std::size_t i = 0; i < ablation.steps.size(); ++i) rows.push_back({ablation, i});
+  return rows;
 }
 
-double each_pixel(const Ablation& ablation, uint64_t count) {
-  return static_cast<double>(count) / static_cast<double>(ablation.pixels);
+// A column stands twice where the outputs show different values.
+const Columns<AblationRow>& ablation_columns() {
+  // clang-format off
+  static const Columns<AblationRow> columns{
+      {{}, "", {"", "{}"}, [](auto& r) { return r.index + 1; }},
+      {{}, "change", {"change", "{}"}, [](auto& r) { return r.step().change; }},
+      {{}, "from", {}, [](auto& r) { return r.step().from; }},
+      {{}, "", {"from", "{}"}, [](auto& r) { return r.first() ? Value() : Value(r.step().from + 1); }},
+      {{}, "ms.min", {}, [](auto& r) { return r.measurement().ms.min; }},
+      {{}, "ms.median", {"ms", "{:.1f}"}, [](auto& r) { return r.measurement().ms.median; }},
+      {{}, "ms.max", {}, [](auto& r) { return r.measurement().ms.max; }},
+      {{}, "times_as_fast", {}, [](auto& r) { return r.times_as_fast(); }},
+      {{}, "", {"times as fast", "{:.2f}"}, [](auto& r) { return r.first() ? Value() : Value(r.times_as_fast()); }},
+      {{}, "rms", {"error", "{:.1e}"}, [](auto& r) { return r.measurement().errors.rms; }},
+      {{}, "wrong_hits", {}, [](auto& r) { return r.measurement().errors.wrong; }},
+      {{}, "missed", {}, [](auto& r) { return r.measurement().errors.missed; }},
+      {{}, "", {"wrong or missed", "{}"}, [](auto& r) { return wrong_pixels(r.measurement()); }},
+      {{}, "evaluations", {}, [](auto& r) { return r.measurement().work.evaluations; }},
+      {{}, "candidates", {}, [](auto& r) { return r.measurement().work.candidates; }},
+      {{}, "bytes_read", {}, [](auto& r) { return r.measurement().work.bytes_read; }},
+      {{}, "", {"evaluations a pixel", "{:.1f}"}, [](auto& r) { return r.per_pixel(r.measurement().work.evaluations); }},
+      {{}, "", {"candidates a pixel", "{:.2f}"}, [](auto& r) { return r.per_pixel(r.measurement().work.candidates); }},
+      {{}, "", {"bytes a pixel", "{:.0f}"}, [](auto& r) { return r.per_pixel(r.measurement().work.bytes_read); }},
+  };
+  // clang-format on
+  return columns;
 }
 
 }  // namespace
@@ -23,45 +69,16 @@ std::string name_of(const Ablation& ablation) {
 }
 
 report::Table table_of(const Ablation& ablation) {
-  report::Table table{{{"", "change", "from", "ms", "times as fast", "error", "wrong or missed",
-                        "evaluations a pixel", "candidates a pixel", "bytes a pixel"}}};
-  for (std::size_t i = 0; i < ablation.steps.size(); ++i) {
-    const Step& step = ablation.steps[i];
-    const Measurement& m = step.measurement;
-    const bool first = step.from == i;
-    table.rows.push_back({fmt::to_string(i + 1), step.change,
-                          first ? "" : fmt::to_string(step.from + 1),
-                          fmt::format("{:.1f}", m.ms.median),
-                          first ? "" : fmt::format("{:.2f}", times_as_fast(ablation, step)),
-                          fmt::format("{:.1e}", m.errors.rms), fmt::to_string(wrong_pixels(m)),
-                          fmt::format("{:.1f}", each_pixel(ablation, m.work.evaluations)),
-                          fmt::format("{:.2f}", each_pixel(ablation, m.work.candidates)),
-                          fmt::format("{:.0f}", each_pixel(ablation, m.work.bytes_read))});
-  }
-  return table;
+  return ablation_columns().table(rows_of(ablation));
 }
 
 nlohmann::ordered_json json_of(const std::vector<Ablation>& ablations) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const Ablation& ablation : ablations) {
-    nlohmann::ordered_json steps = nlohmann::ordered_json::array();
-    for (const Step& step : ablation.steps) {
-      const Measurement& m = step.measurement;
-      steps.push_back({{"change", step.change},
-                       {"from", step.from},
-                       {"ms", json_of(m.ms)},
-                       {"times_as_fast", times_as_fast(ablation, step)},
-                       {"rms", m.errors.rms},
-                       {"wrong_hits", m.errors.wrong},
-                       {"missed", m.errors.missed},
-                       {"evaluations", m.work.evaluations},
-                       {"candidates", m.work.candidates},
-                       {"bytes_read", m.work.bytes_read}});
-    }
     all.push_back({{"model", ablation.model},
                    {"surface", surface_name(ablation.surface)},
                    {"patches", ablation.patches},
-                   {"steps", steps}});
+                   {"steps", ablation_columns().json(rows_of(ablation))}});
   }
   return all;
 }

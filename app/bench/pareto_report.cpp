@@ -6,10 +6,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/json_text.h"
+#include "app/report/columns.h"
 
 namespace trisect::bench {
 namespace {
+
+using report::Columns;
+using report::Value;
 
 std::string label_of(const Measurement& one) {
   return one.number.empty() ? one.family : one.family + ", " + one.number;
@@ -37,6 +40,80 @@ const Measurement* fastest(const Scene& scene, Of&& of) {
   return best;
 }
 
+struct ParetoRow {
+  const Scene& scene;
+  const Measurement& one;
+};
+
+std::vector<ParetoRow> rows_of(const Scene& scene) {
+  std::vector<ParetoRow> rows;
+  for (const Measurement& one : scene.measurements) rows.push_back({scene, one});
+  return rows;
+}
+
+Value dominating_label(const ParetoRow& row) {
+  if (!row.one.dominated_by) return {};
+  return label_of(row.scene.measurements[*row.one.dominated_by]);
+}
+
+Value null_if_0(uint64_t count) {
+  return count > 0 ? Value(count) : Value();
+}
+
+// A column stands twice where the outputs have it in different places or show different values.
+const Columns<ParetoRow>& pareto_columns() {
+  // clang-format off
+  static const Columns<ParetoRow> columns{
+      {{"model", "{}"}, "", {}, [](auto& r) { return r.scene.model; }},
+      {{"surface", "{}"}, "", {}, [](auto& r) { return surface_name(r.scene.surface); }},
+      {{"patches", "{}"}, "", {}, [](auto& r) { return r.scene.patches; }},
+      {{"family", "\"{}\""}, "family", {}, [](auto& r) { return r.one.family; }},
+      {{"number", "\"{}\""}, "number", {}, [](auto& r) { return r.one.number; }},
+      {{}, "", {"contender", "{}"}, [](auto& r) { return label_of(r.one); }},
+      {{}, "ms.min", {}, [](auto& r) { return r.one.ms.min; }},
+      {{"ms_median", "{:.3f}"}, "ms.median", {"ms", "{:.1f}"}, [](auto& r) { return r.one.ms.median; }},
+      {{"ms_min", "{:.3f}"}, "", {"least", "{:.1f}"}, [](auto& r) { return r.one.ms.min; }},
+      {{"ms_max", "{:.3f}"}, "ms.max", {"most", "{:.1f}"}, [](auto& r) { return r.one.ms.max; }},
+      {{"rms", "{:.4e}"}, "rms", {"error", "{:.1e}"}, [](auto& r) { return r.one.errors.rms; }},
+      {{}, "", {"wrong", "{}"}, [](auto& r) { return r.one.errors.wrong; }},
+      {{}, "", {"missed", "{}"}, [](auto& r) { return r.one.errors.missed; }},
+      {{"off_p50", "{:.4e}"}, "off_surface.p50", {"off p50", "{:.1e}"}, [](auto& r) { return r.one.errors.off.p50; }},
+      {{"off_p99", "{:.4e}"}, "off_surface.p99", {"off p99", "{:.1e}"}, [](auto& r) { return r.one.errors.off.p99; }},
+      {{"off_max", "{:.4e}"}, "off_surface.max", {"off max", "{:.1e}"}, [](auto& r) { return r.one.errors.off.max; }},
+      {{"ulp_p50", "{:.3g}"}, "depth_ulp.p50", {}, [](auto& r) { return r.one.errors.depth_ulp.p50; }},
+      {{"ulp_p99", "{:.3g}"}, "depth_ulp.p99", {"ulp p99", "{:.2g}"}, [](auto& r) { return r.one.errors.depth_ulp.p99; }},
+      {{"ulp_max", "{:.3g}"}, "depth_ulp.max", {}, [](auto& r) { return r.one.errors.depth_ulp.max; }},
+      {{"normal_p50", "{:.3e}"}, "normal_degrees.p50", {}, [](auto& r) { return r.one.errors.normal_degrees.p50; }},
+      {{"normal_p99", "{:.3e}"}, "normal_degrees.p99", {"normal p99", "{:.2g}"},
+       [](auto& r) { return r.one.errors.normal_degrees.p99; }},
+      {{"normal_max", "{:.3e}"}, "normal_degrees.max", {}, [](auto& r) { return r.one.errors.normal_degrees.max; }},
+      {{"wrong", "{}"}, "wrong_hits", {}, [](auto& r) { return r.one.errors.wrong; }},
+      {{"missed", "{}"}, "missed", {}, [](auto& r) { return r.one.errors.missed; }},
+      {{"undecidable", "{}"}, "undecidable", {}, [](auto& r) { return r.one.errors.undecidable; }},
+      {{"nans", "{}"}, "nans", {}, [](auto& r) { return r.one.errors.nans; }},
+      {{"outline_mean", "{:.4f}"}, "outline.mean", {"outline", "{:.2f}"}, [](auto& r) { return r.one.errors.outline_mean; }},
+      {{"outline_max", "{:.3f}"}, "outline.max", {}, [](auto& r) { return r.one.errors.outline_max; }},
+      {{"color_rmse", "{:.5g}"}, "color_rmse", {"RMSE", "{:.2g}"}, [](auto& r) { return r.one.errors.color_rmse; }},
+      {{"psnr", "{:.4g}"}, "", {"PSNR", "{:.0f}"}, [](auto& r) { return r.one.errors.psnr; }},
+      // Infinite if no colour differs, which JSON cannot say.
+      {{}, "psnr", {}, [](auto& r) { return std::isfinite(r.one.errors.psnr) ? Value(r.one.errors.psnr) : Value(); }},
+      {{"evaluations", "{}"}, "evaluations", {}, [](auto& r) { return r.one.work.evaluations; }},
+      {{"candidates", "{}"}, "candidates", {}, [](auto& r) { return r.one.work.candidates; }},
+      {{"bytes_read", "{}"}, "bytes_read", {}, [](auto& r) { return r.one.work.bytes_read; }},
+      {{"bytes", "{}"}, "bytes", {}, [](auto& r) { return r.one.bytes; }},
+      // A contender that does not count its work has 0.
+      {{}, "", {"evaluations", "{}"}, [](auto& r) { return null_if_0(r.one.work.evaluations); }},
+      {{}, "", {"MB read", "{}"},
+       [](auto& r) { return r.one.work.bytes_read > 0 ? Value(r.one.work.bytes_read >> 20U) : Value(); }},
+      {{}, "", {"KB", "{}"}, [](auto& r) { return r.one.bytes / 1024; }},
+      {{}, "on_front", {}, [](auto& r) { return !r.one.dominated_by.has_value(); }},
+      {{}, "", {"front", "{}"}, [](auto& r) { return r.one.dominated_by ? "" : "yes"; }},
+      {{"dominated_by", "\"{}\""}, "dominated_by", {}, dominating_label},
+  };
+  // clang-format on
+  return columns;
+}
+
 std::string joined(const std::vector<std::string>& texts) {
   return fmt::format("{}", fmt::join(texts, "; "));
 }
@@ -48,65 +125,20 @@ std::string name_of(const Scene& scene) {
 }
 
 std::string csv_of(const std::vector<Scene>& scenes) {
-  std::string text =
-      "model,surface,patches,family,number,ms_median,ms_min,ms_max,rms,off_p50,off_p99,off_max,"
-      "ulp_p50,ulp_p99,ulp_max,normal_p50,normal_p99,normal_max,wrong,missed,undecidable,nans,"
-      "outline_mean,outline_max,color_rmse,psnr,evaluations,candidates,bytes_read,bytes,dominated_"
-      "by\n";
+  std::vector<ParetoRow> rows;
   for (const Scene& scene : scenes) {
-    for (const Measurement& m : scene.measurements) {
-      const FrameErrors& e = m.errors;
-      const std::string by =
-          m.dominated_by ? label_of(scene.measurements[*m.dominated_by]) : std::string();
-      text += fmt::format(
-          "{},{},{},\"{}\",\"{}\",{:.3f},{:.3f},{:.3f},{:.4e},{:.4e},{:.4e},{:.4e},{:.3g},{:.3g},"
-          "{:.3g},{:.3e},{:.3e},{:.3e},{},{},{},{},{:.4f},{:.3f},{:.5g},{:.4g},{},{},{},{},\"{}"
-          "\"\n",
-          scene.model, surface_name(scene.surface), scene.patches, m.family, m.number, m.ms.median,
-          m.ms.min, m.ms.max, e.rms, e.off.p50, e.off.p99, e.off.max, e.depth_ulp.p50,
-          e.depth_ulp.p99, e.depth_ulp.max, e.normal_degrees.p50, e.normal_degrees.p99,
-          e.normal_degrees.max, e.wrong, e.missed, e.undecidable, e.nans, e.outline_mean,
-          e.outline_max, e.color_rmse, e.psnr, m.work.evaluations, m.work.candidates,
-          m.work.bytes_read, m.bytes, by);
-    }
+    for (const ParetoRow& row : rows_of(scene)) rows.push_back(row);
   }
-  return text;
+  return pareto_columns().csv(rows);
 }
 
 nlohmann::ordered_json json_of(const std::vector<Scene>& scenes) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const Scene& scene : scenes) {
-    nlohmann::ordered_json of_scene{{"model", scene.model},
-                                    {"surface", surface_name(scene.surface)},
-                                    {"patches", scene.patches},
-                                    {"measurements", nlohmann::ordered_json::array()}};
-    for (const Measurement& m : scene.measurements) {
-      const FrameErrors& e = m.errors;
-      nlohmann::ordered_json one;
-      one["family"] = m.family;
-      one["number"] = m.number;
-      one["ms"] = json_of(m.ms);
-      one["rms"] = e.rms;
-      one["off_surface"] = json_of(e.off);
-      one["depth_ulp"] = json_of(e.depth_ulp);
-      one["normal_degrees"] = json_of(e.normal_degrees);
-      one["wrong_hits"] = e.wrong;
-      one["missed"] = e.missed;
-      one["undecidable"] = e.undecidable;
-      one["nans"] = e.nans;
-      one["outline"] = {{"mean", e.outline_mean}, {"max", e.outline_max}};
-      one["color_rmse"] = e.color_rmse;
-      // Infinite if nothing differs, which JSON does not know.
-      if (std::isfinite(e.psnr)) one["psnr"] = e.psnr;
-      one["evaluations"] = m.work.evaluations;
-      one["candidates"] = m.work.candidates;
-      one["bytes_read"] = m.work.bytes_read;
-      one["bytes"] = m.bytes;
-      one["on_front"] = !m.dominated_by.has_value();
-      if (m.dominated_by) one["dominated_by"] = label_of(scene.measurements[*m.dominated_by]);
-      of_scene["measurements"].push_back(one);
-    }
-    all.push_back(of_scene);
+    all.push_back({{"model", scene.model},
+                   {"surface", surface_name(scene.surface)},
+                   {"patches", scene.patches},
+                   {"measurements", pareto_columns().json(rows_of(scene))}});
   }
   return all;
 }
@@ -162,24 +194,7 @@ std::vector<std::string> findings_of(const Scene& scene) {
 }
 
 report::Table table_of(const Scene& scene) {
-  report::Table table{{{"contender", "ms", "least", "most", "error", "wrong", "missed", "off p50",
-                        "off p99", "off max", "ulp p99", "normal p99", "outline", "RMSE", "PSNR",
-                        "evaluations", "MB read", "KB", "front"}}};
-  for (const Measurement& m : scene.measurements) {
-    const FrameErrors& e = m.errors;
-    table.rows.push_back(
-        {label_of(m), fmt::format("{:.1f}", m.ms.median), fmt::format("{:.1f}", m.ms.min),
-         fmt::format("{:.1f}", m.ms.max), fmt::format("{:.1e}", e.rms), fmt::to_string(e.wrong),
-         fmt::to_string(e.missed), fmt::format("{:.1e}", e.off.p50),
-         fmt::format("{:.1e}", e.off.p99), fmt::format("{:.1e}", e.off.max),
-         fmt::format("{:.2g}", e.depth_ulp.p99), fmt::format("{:.2g}", e.normal_degrees.p99),
-         fmt::format("{:.2f}", e.outline_mean), fmt::format("{:.2g}", e.color_rmse),
-         fmt::format("{:.0f}", e.psnr),
-         m.work.evaluations > 0 ? fmt::to_string(m.work.evaluations) : "",
-         m.work.bytes_read > 0 ? fmt::to_string(m.work.bytes_read >> 20U) : "",
-         fmt::to_string(m.bytes / 1024), m.dominated_by ? "" : "yes"});
-  }
-  return table;
+  return pareto_columns().table(rows_of(scene));
 }
 
 std::string plot_script(const Scene& scene, const std::string& terminal, const std::string& file) {

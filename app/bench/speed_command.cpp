@@ -201,7 +201,7 @@ int bench_speed(const BenchOptions& options) {
   if (!options.json.empty()) file.emplace(options.json);
   fmt::print("device {}, driver {}, {}x{}, medians of {} runs\n\n{}", device.report().name,
              device.report().driver, options.width, options.height, options.runs,
-             bench::speed_table_header());
+             bench::speed_columns().markdown_header());
   std::fflush(stdout);
   nlohmann::ordered_json json;
   json["device"] = device.report().name;
@@ -215,8 +215,8 @@ int bench_speed(const BenchOptions& options) {
       Race race(device, options, model, surface);
       race.run();
       for (const bench::SpeedRow& row : rows_of(model, surface, race)) {
-        fmt::print("{}", bench::speed_table_row(row));
-        json["rows"].push_back(bench::json_of(row));
+        fmt::print("{}", bench::speed_columns().markdown_row(row));
+        json["rows"].push_back(bench::speed_columns().json(row));
       }
       std::fflush(stdout);
     }

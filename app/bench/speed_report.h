@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstddef>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
 #include "app/cli/statistics.h"
+#include "app/report/columns.h"
 #include "app/surface/shared.h"
 
 namespace trisect::bench {
@@ -31,10 +31,6 @@ struct SpeedRow {
   std::optional<double> flat_error;
 };
 
-// Markdown, a line at a time, so that rows can be printed as soon as they are measured.
-std::string speed_table_header();
-std::string speed_table_row(const SpeedRow& row);
-
-nlohmann::ordered_json json_of(const SpeedRow& row);
+const report::Columns<SpeedRow>& speed_columns();
 
 }  // namespace trisect::bench

@@ -5,60 +5,89 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/report/columns.h"
+
 namespace trisect::bench {
 
-report::Table table_of(const StabilityAxis& axis) {
-  std::vector<std::string> header{axis.what};
+namespace {
+
+using report::Columns;
+using report::Table;
+using report::Value;
+
+struct StabilityRow {
+  const StabilityAxis& axis;
+  const StabilityCurve& curve;
+  const StabilityPoint& point;
+};
+
+std::vector<StabilityRow> rows_of(const StabilityAxis& axis, const StabilityCurve& curve) {
+  std::vector<StabilityRow> rows;
+  for (const StabilityPoint& point : curve.points) rows.push_back({axis, curve, point});
+  return rows;
+}
+
+Value decided_error(const StabilityRow& row) {
+  return row.point.decided > 0 ? Value(row.point.error) : Value();
+}
+
+// A column stands twice where the outputs have it in different places or show different values.
+const Columns<StabilityRow>& stability_columns() {
+  // clang-format off
+  static const Columns<StabilityRow> columns{
+      {{"axis", "{}"}, "", {}, [](auto& r) { return r.axis.name; }},
+      {{"solver", "\"{}\""}, "", {}, [](auto& r) { return r.curve.solver; }},
+      {{"value", "{:g}"}, "value", {"value", "{:g}"}, [](auto& r) { return r.point.value; }},
+      {{"error", "{:.4e}"}, "", {}, [](auto& r) { return r.point.error; }},
+      {{}, "", {"error", "{:.1e}"}, decided_error},
+      {{"decided", "{}"}, "decided", {}, [](auto& r) { return r.point.decided; }},
+      {{"wrong", "{}"}, "wrong", {"wrong", "{}"}, [](auto& r) { return r.point.wrong; }},
+      {{"missed", "{}"}, "missed", {"missed", "{}"}, [](auto& r) { return r.point.missed; }},
+      {{"nans", "{}"}, "nans", {"NaNs", "{}"}, [](auto& r) { return r.point.nans; }},
+      {{}, "error", {}, decided_error},
+      {{}, "", {"rays decided", "{}"}, [](auto& r) { return r.point.decided; }},
+  };
+  // clang-format on
+  return columns;
+}
+
+}  // namespace
+
+Table table_of(const StabilityAxis& axis) {
+  std::vector<Table> solvers;
   for (const StabilityCurve& curve : axis.curves) {
-    header.push_back(curve.solver + ": error");
-    header.emplace_back("wrong");
-    header.emplace_back("missed");
-    header.emplace_back("NaNs");
+    solvers.push_back(stability_columns().table(rows_of(axis, curve)));
+    solvers.back().rows[0][1] = curve.solver + ": error";
   }
-  header.emplace_back("rays decided");
-  report::Table table{{header}};
-  for (std::size_t i = 0; i < axis.curves[0].points.size(); ++i) {
-    std::vector<std::string> row{fmt::format("{:g}", axis.curves[0].points[i].value)};
-    for (const StabilityCurve& curve : axis.curves) {
-      const StabilityPoint& point = curve.points[i];
-      row.push_back(point.decided > 0 ? fmt::format("{:.1e}", point.error) : "");
-      row.push_back(fmt::to_string(point.wrong));
-      row.push_back(fmt::to_string(point.missed));
-      row.push_back(fmt::to_string(point.nans));
+  // Side by side: the first and the last column, which the solvers share, stand once.
+  Table table = solvers[0];
+  table.rows[0][0] = axis.what;
+  for (std::size_t k = 1; k < solvers.size(); ++k) {
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      const std::vector<std::string>& more = solvers[k].rows[i];
+      table.rows[i].insert(table.rows[i].end() - 1, more.begin() + 1, more.end() - 1);
     }
-    row.push_back(fmt::to_string(axis.curves[0].points[i].decided));
-    table.rows.push_back(row);
   }
   return table;
 }
 
 std::string csv_of(const std::vector<StabilityAxis>& axes) {
-  std::string text = "axis,solver,value,error,decided,wrong,missed,nans\n";
+  std::vector<StabilityRow> rows;
   for (const StabilityAxis& axis : axes) {
     for (const StabilityCurve& curve : axis.curves) {
-      for (const StabilityPoint& p : curve.points) {
-        text += fmt::format("{},\"{}\",{:g},{:.4e},{},{},{},{}\n", axis.name, curve.solver, p.value,
-                            p.error, p.decided, p.wrong, p.missed, p.nans);
-      }
+      for (const StabilityRow& row : rows_of(axis, curve)) rows.push_back(row);
     }
   }
-  return text;
+  return stability_columns().csv(rows);
 }
 
 nlohmann::ordered_json json_of(const std::vector<StabilityAxis>& axes) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const StabilityAxis& axis : axes) {
     for (const StabilityCurve& curve : axis.curves) {
-      nlohmann::ordered_json points = nlohmann::ordered_json::array();
-      for (const StabilityPoint& p : curve.points) {
-        points.push_back({{"value", p.value},
-                          {"decided", p.decided},
-                          {"wrong", p.wrong},
-                          {"missed", p.missed},
-                          {"nans", p.nans}});
-        if (p.decided > 0) points.back()["error"] = p.error;
-      }
-      json.push_back({{"axis", axis.name}, {"solver", curve.solver}, {"points", points}});
+      json.push_back({{"axis", axis.name},
+                      {"solver", curve.solver},
+                      {"points", stability_columns().json(rows_of(axis, curve))}});
     }
   }
   return json;

@@ -1,38 +1,38 @@
 #include "app/bench/stress_table.h"
 
-#include <fmt/format.h>
-
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "app/base/error.h"
+#include "app/cli/hardcases_report.h"
+#include "app/report/columns.h"
 
 namespace trisect::bench {
+
+using report::Value;
 
 StressTable read_stress_table(const std::string& file) {
   std::ifstream in(file);
   if (!in) throw InputError(file + ": cannot be read.");
   try {
-    const nlohmann::json json = nlohmann::json::parse(in);
+    const Value json = Value::parse(in);
     StressTable result;
     result.device =
         json.at("device").get<std::string>() + ", " + json.at("driver").get<std::string>();
-    result.table.rows.push_back({"case", "surface", "shell", "solver", "rays", "undecidable",
-                                 "wrong", "missed", "p50 ulp", "p99 ulp", "max ulp", "NaNs",
-                                 "evaluations a ray", "verdict"});
-    const auto rounded = [](const nlohmann::json& number) {
-      return fmt::format("{:.3g}", number.get<double>());
-    };
-    for (const nlohmann::json& row : json.at("rows")) {
-      const std::string note = row.at("note");
-      std::string verdict = row.at("verdict");
-      if (!note.empty()) verdict += " (" + note + ")";
-      result.table.rows.push_back(
-          {row.at("case"), row.at("surface"), row.at("shell"), row.at("solver"),
-           row.at("rays").dump(), row.at("undecidable").dump(), row.at("wrong").dump(),
-           row.at("missed").dump(), rounded(row.at("depth_error_ulp_p50")),
-           rounded(row.at("depth_error_ulp_p99")), rounded(row.at("depth_error_ulp_max")),
-           row.at("nans").dump(), rounded(row.at("evaluations_per_ray")), verdict});
+    result.table = hardcases_columns().table({});
+    for (const Value& row : json.at("rows")) {
+      std::vector<std::string> cells;
+      for (const auto& column : hardcases_columns()) {
+        if (column.table.format.empty()) continue;
+        const Value& value = row.at(column.json);
+        // JSON that another program has written anew may have 0 for 0.0.
+        const bool rounded = value.is_number() && column.table.format != "{}";
+        cells.push_back(cell_of(column.table, rounded ? Value(value.get<double>()) : value));
+      }
+      cells.back() = with_note(cells.back(), row.at("note"));
+      result.table.rows.push_back(cells);
     }
     return result;
   } catch (const nlohmann::json::exception&) {

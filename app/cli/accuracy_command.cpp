@@ -116,9 +116,9 @@ int accuracy(const AccuracyOptions& options) {
   bool kept = true;
   for (const std::string& model : options.models) {
     for (const AccuracyRow& row : measure_model(device, options, model)) {
-      fmt::print("{}", accuracy_table_row(row));
+      fmt::print("{}", accuracy_columns().markdown_row(row));
       std::fflush(stdout);
-      json["rows"].push_back(json_of(row));
+      json["rows"].push_back(accuracy_columns().json(row));
       kept = kept && (row.solver == SOLVER_BISECT || keeps_promise(row.accuracy));
     }
   }

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstddef>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "app/accuracy/accuracy.h"
+#include "app/report/columns.h"
 #include "app/surface/surface_choice.h"
 
 namespace trisect {
@@ -22,10 +22,8 @@ struct AccuracyRow {
   std::string verdict;  // "pass" or "FAIL"; empty for solvers that promise nothing
 };
 
-// Markdown, a line at a time, so that rows can be printed as soon as they are measured.
-std::string accuracy_table_header();
-std::string accuracy_table_row(const AccuracyRow& row);
+const report::Columns<AccuracyRow>& accuracy_columns();
 
-nlohmann::ordered_json json_of(const AccuracyRow& row);
+std::string accuracy_table_header();
 
 }  // namespace trisect

@@ -24,15 +24,14 @@ std::string to_json(const StressBackend& backend, const std::vector<StressRow>& 
   json["version"] = TRISECT_VERSION;
   json["device"] = backend.device;
   json["driver"] = backend.driver;
-  json["rows"] = nlohmann::ordered_json::array();
-  for (const StressRow& row : rows) json["rows"].push_back(json_of(row));
+  json["rows"] = hardcases_columns().json(rows);
   return json_text(json);
 }
 
 std::vector<StressRow> run_all(const StressBackend& backend) {
   std::vector<StressRow> rows;
   const auto add = [&](StressRow row) {
-    fmt::print("{}", hardcases_row(row));
+    fmt::print("{}", hardcases_columns().text_row(row));
     rows.push_back(std::move(row));
     stop_if_interrupted();
   };
@@ -49,7 +48,7 @@ int run_on(const HardcasesOptions& options, const StressBackend& backend) {
   std::optional<AtomicFile> json;
   if (!options.json.empty()) json.emplace(options.json);
   fmt::print("device {}, driver {}\n", backend.device, backend.driver);
-  fmt::print("{}", hardcases_header());
+  fmt::print("{}", hardcases_columns().text_header());
   const std::vector<StressRow> rows = run_all(backend);
   const BindingRows binding = count_binding(rows);
   fmt::print(

@@ -1,52 +1,42 @@
 #include "app/cli/hardcases_report.h"
 
-#include <fmt/format.h>
-
-#include <nlohmann/json.hpp>
-
 #include "app/buffers/kernel_choice.h"
 #include "app/surface/surface_choice.h"
 
 namespace trisect {
 
-std::string hardcases_header() {
-  return fmt::format(
-      "{:<23} {:<7} {:<7} {:<7} {:>5} {:>6} {:>6} {:>6} {:>8} {:>8} {:>9} {:>5} {:>8}  {}\n",
-      "case", "surface", "shell", "solver", "rays", "undec.", "wrong", "missed", "p50 ulp",
-      "p99 ulp", "max ulp", "NaNs", "eval/ray", "verdict");
+const report::Columns<StressRow>& hardcases_columns() {
+  // clang-format off
+  static const report::Columns<StressRow> columns{
+      {{}, "case", {"case", "{}"}, [](auto& r) { return r.name; }, {"case", "{}", -23}},
+      {{}, "what", {}, [](auto& r) { return r.what; }},
+      {{}, "kind", {}, [](auto& r) { return kind_name(r.kind); }},
+      {{}, "surface", {"surface", "{}"}, [](auto& r) { return surface_name(r.surface); }, {"surface", "{}", -7}},
+      {{}, "shell", {"shell", "{}"}, [](auto& r) { return shell_name(r.shell); }, {"shell", "{}", -7}},
+      {{}, "solver", {"solver", "{}"}, [](auto& r) { return solver_name(r.solver); }, {"solver", "{}", -7}},
+      {{}, "rank", {}, [](auto& r) { return r.rank; }},
+      {{}, "rays", {"rays", "{}"}, [](auto& r) { return r.outcome.rays; }, {"rays", "{}", 5}},
+      {{}, "undecidable", {"undecidable", "{}"}, [](auto& r) { return r.outcome.undecidable; }, {"undec.", "{}", 6}},
+      {{}, "wrong", {"wrong", "{}"}, [](auto& r) { return r.outcome.wrong; }, {"wrong", "{}", 6}},
+      {{}, "missed", {"missed", "{}"}, [](auto& r) { return r.outcome.missed; }, {"missed", "{}", 6}},
+      {{}, "depth_error_ulp_p50", {"p50 ulp", "{:.3g}"}, [](auto& r) { return r.error_ulp(0.5); }, {"p50 ulp", "{:.3g}", 8}},
+      {{}, "depth_error_ulp_p99", {"p99 ulp", "{:.3g}"},
+       [](auto& r) { return r.error_ulp(0.99); }, {"p99 ulp", "{:.3g}", 8}},
+      {{}, "depth_error_ulp_max", {"max ulp", "{:.3g}"}, [](auto& r) { return r.error_ulp(1.0); }, {"max ulp", "{:.3g}", 9}},
+      {{}, "nans", {"NaNs", "{}"}, [](auto& r) { return r.outcome.nans; }, {"NaNs", "{}", 5}},
+      {{}, "evaluations_per_ray", {"evaluations a ray", "{:.3g}"},
+       [](auto& r) { return r.evaluations_per_ray(); }, {"eval/ray", "{:.1f}", 8}},
+      {{}, "verdict", {"verdict", "{}"}, [](auto& r) { return r.verdict; }},
+      {{}, "note", {}, [](auto& r) { return r.outcome.note; }},
+      // With a second blank before it.
+      {{}, "", {}, [](auto& r) { return with_note(r.verdict, r.outcome.note); }, {" verdict", " {}"}},
+  };
+  // clang-format on
+  return columns;
 }
 
-std::string hardcases_row(const StressRow& row) {
-  const CheckedOutcome& outcome = row.outcome;
-  return fmt::format(
-      "{:<23} {:<7} {:<7} {:<7} {:>5} {:>6} {:>6} {:>6} {:>8.3g} {:>8.3g} {:>9.3g} {:>5} {:>8.1f}  "
-      "{}{}\n",
-      row.name, surface_name(row.surface), shell_name(row.shell), solver_name(row.solver),
-      outcome.rays, outcome.undecidable, outcome.wrong, outcome.missed, row.error_ulp(0.5),
-      row.error_ulp(0.99), row.error_ulp(1.0), outcome.nans, row.evaluations_per_ray(), row.verdict,
-      outcome.note.empty() ? "" : fmt::format(" ({})", outcome.note));
-}
-
-nlohmann::ordered_json json_of(const StressRow& row) {
-  const CheckedOutcome& outcome = row.outcome;
-  return {{"case", row.name},
-          {"what", row.what},
-          {"kind", kind_name(row.kind)},
-          {"surface", surface_name(row.surface)},
-          {"shell", shell_name(row.shell)},
-          {"solver", solver_name(row.solver)},
-          {"rank", row.rank},
-          {"rays", outcome.rays},
-          {"undecidable", outcome.undecidable},
-          {"wrong", outcome.wrong},
-          {"missed", outcome.missed},
-          {"depth_error_ulp_p50", row.error_ulp(0.5)},
-          {"depth_error_ulp_p99", row.error_ulp(0.99)},
-          {"depth_error_ulp_max", row.error_ulp(1.0)},
-          {"nans", outcome.nans},
-          {"evaluations_per_ray", row.evaluations_per_ray()},
-          {"verdict", row.verdict},
-          {"note", outcome.note}};
+std::string with_note(const std::string& verdict, const std::string& note) {
+  return note.empty() ? verdict : verdict + " (" + note + ")";
 }
 
 }  // namespace trisect

@@ -1,17 +1,17 @@
 // The table and the JSON of `trisect hardcases`.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "app/report/columns.h"
 #include "app/stress/stress_judge.h"
 
 namespace trisect {
 
-// Aligned text, a line at a time, so that rows can be printed as soon as they are measured.
-std::string hardcases_header();
-std::string hardcases_row(const StressRow& row);
+// The table for reports lacks the note, which with_note() adds to the verdict.
+const report::Columns<StressRow>& hardcases_columns();
 
-nlohmann::ordered_json json_of(const StressRow& row);
+// "FAIL (a note)", or the verdict alone if there is no note.
+std::string with_note(const std::string& verdict, const std::string& note);
 
 }  // namespace trisect

@@ -41,16 +41,10 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-std::string row_of(const std::vector<std::string>& cells) {
-  std::string line = "|";
-  for (const std::string& cell : cells) line += " " + cell + " |";
-  return line + "\n";
-}
-
 std::string markdown_of(const Table& table) {
   std::string text;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    text += row_of(table.rows[i]);
+    text += markdown_line(table.rows[i]);
     if (i > 0) continue;
     text += "|";
     for (std::size_t k = 0; k < table.rows[0].size(); ++k) text += "---|";
@@ -85,6 +79,12 @@ std::string html_of(const Picture& picture, const std::filesystem::path& folder)
 }
 
 }  // namespace
+
+std::string markdown_line(const std::vector<std::string>& cells) {
+  std::string line = "|";
+  for (const std::string& cell : cells) line += " " + cell + " |";
+  return line + "\n";
+}
 
 std::string base64_of(const std::string& bytes) {
   constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

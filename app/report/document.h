@@ -29,6 +29,9 @@ using Block = std::variant<Heading, Paragraph, Items, Table, Picture>;
 
 std::string markdown_of(const std::vector<Block>& blocks);
 
+// A row of a table in Markdown, with a newline.
+std::string markdown_line(const std::vector<std::string>& cells);
+
 // Pictures are read from `folder`. Throws InputError if one cannot be.
 std::string html_of(const std::string& title, const std::vector<Block>& blocks,
                     const std::filesystem::path& folder);

@@ -207,11 +207,11 @@ std::vector<SpeedRow> speed() {
 
 TEST(SpeedReport, IsExactInJson) {
   EXPECT_EQ(
-      json_of(speed()[0]).dump(),
+      speed_columns().json(speed()[0]).dump(),
       compact(
           R"({"model":"models/torus.obj", "surface":"phong", "patches":256, "contender":"image only",
     "ms":{"min":0.1, "median":0.125, "max":0.2}, "bytes":0})"));
-  EXPECT_EQ(json_of(speed()[1]).dump(),
+  EXPECT_EQ(speed_columns().json(speed()[1]).dump(),
             compact(R"({"model":"models/torus.obj", "surface":"phong", "patches":256,
     "contender":"Embree, single rays", "ms":{"min":2.0, "median":3.14159, "max":40.0},
     "checked_pixels":300, "wrong_pixels":7, "bytes":5000, "build_ms":12.75,
@@ -220,7 +220,8 @@ TEST(SpeedReport, IsExactInJson) {
 
 TEST(SpeedReport, IsExactAsTable) {
   EXPECT_EQ(
-      speed_table_header() + speed_table_row(speed()[0]) + speed_table_row(speed()[1]),
+      speed_columns().markdown_header() + speed_columns().markdown_row(speed()[0]) +
+          speed_columns().markdown_row(speed()[1]),
       R"(| model | surface | contender | ms | least | most | of the thesis | of the image | wrong | of | KB | build ms |
 |---|---|---|---|---|---|---|---|---|---|---|---|
 | torus | phong | image only | 0.1 | 0.1 | 0.2 | 0.005 | 1.0 |  |  | 0 |  |

@@ -46,7 +46,7 @@ AccuracyRow bisection() {
 
 TEST(AccuracyReport, IsExactInJson) {
   EXPECT_EQ(
-      json_of(accuracy()).dump(),
+      accuracy_columns().json(accuracy()).dump(),
       compact(
           R"({"model":"models/teapot.obj", "surface":"sphere", "shell":"height", "solver":"robust",
     "pixels":480000, "hits":123456, "undecidable":5, "wrong_hits":1, "missed":2,
@@ -58,7 +58,8 @@ TEST(AccuracyReport, IsExactInJson) {
 
 TEST(AccuracyReport, IsExactAsTable) {
   EXPECT_EQ(
-      accuracy_table_header() + accuracy_table_row(accuracy()) + accuracy_table_row(bisection()),
+      accuracy_table_header() + accuracy_columns().markdown_row(accuracy()) +
+          accuracy_columns().markdown_row(bisection()),
       R"(| model | surface | shell | solver | hit | undecidable | wrong hit | missed | wrong patch | off p50 | off p99 | off max | ulp p50 | ulp p99 | normal p99 | evals | cpu differs | ms | |
 |---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|
 | teapot | sphere | height | robust | 123456 | 5 | 1 | 2 | 3 | 1.2e-08 | 2.3e-07 | 1.5e-06 | 0.51 | 2 | 0.0123 | 4.2 | 6 | 1235 | FAIL |
@@ -97,7 +98,7 @@ StressRow files() {
 
 TEST(HardcasesReport, IsExactInJson) {
   EXPECT_EQ(
-      json_of(needle()).dump(),
+      hardcases_columns().json(needle()).dump(),
       compact(
           R"({"case":"needle", "what":"a patch as thin as a needle", "kind":"shape", "surface":"phong",
     "shell":"normal", "solver":"robust", "rank":12, "rays":120, "undecidable":1, "wrong":2,
@@ -105,7 +106,7 @@ TEST(HardcasesReport, IsExactInJson) {
     "depth_error_ulp_max":2899.1029248, "nans":4, "evaluations_per_ray":8.333333333333334,
     "verdict":"FAIL", "note":""})"));
   EXPECT_EQ(
-      json_of(files()).dump(),
+      hardcases_columns().json(files()).dump(),
       compact(
           R"({"case":"a-name-of-more-than-its-column", "what":"files", "kind":"data", "surface":"flat",
     "shell":"height", "solver":"bisect", "rank":10, "rays":0, "undecidable":0, "wrong":0,
@@ -116,7 +117,8 @@ TEST(HardcasesReport, IsExactInJson) {
 
 TEST(HardcasesReport, IsExactAsText) {
   EXPECT_EQ(
-      hardcases_header() + hardcases_row(needle()) + hardcases_row(files()),
+      hardcases_columns().text_header() + hardcases_columns().text_row(needle()) +
+          hardcases_columns().text_row(files()),
       R"(case                    surface shell   solver   rays undec.  wrong missed  p50 ulp  p99 ulp   max ulp  NaNs eval/ray  verdict
 needle                  phong   normal  robust    120      1      2      3    0.168  2.9e+03   2.9e+03     4      8.3  FAIL
 a-name-of-more-than-its-column flat    height  bisect      0      0      0      0        0        0         0     0      0.0  ok (none was read)

@@ -1,0 +1,50 @@
+#include "app/report/columns.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <cstdlib>
+
+namespace trisect::report {
+namespace {
+
+std::string unpadded(const std::string& format, const Value& value) {
+  const auto formatted = [&](const auto& of) {
+    return fmt::vformat(format, fmt::make_format_args(of));
+  };
+  if (value.is_null()) {
+    return format.substr(0, format.find('{')) + format.substr(format.find('}') + 1);
+  }
+  if (value.is_string()) return formatted(value.get_ref<const std::string&>());
+  if (value.is_number_float()) return formatted(value.get<double>());
+  if (value.is_number_unsigned()) return formatted(value.get<uint64_t>());
+  return formatted(value.dump());
+}
+
+}  // namespace
+
+std::string cell_of(const CellFormat& format, const Value& value) {
+  const std::string text = unpadded(format.format, value);
+  return format.width < 0 ? fmt::format("{:<{}}", text, -format.width)
+                          : fmt::format("{:>{}}", text, format.width);
+}
+
+void set_value(nlohmann::ordered_json& object, const std::string& path, const Value& value) {
+  if (value.is_null()) return;
+  const std::size_t dot = path.find('.');
+  if (dot == std::string::npos) {
+    object[path] = value;
+  } else {
+    set_value(object[path.substr(0, dot)], path.substr(dot + 1), value);
+  }
+}
+
+std::string csv_line(const std::vector<std::string>& cells) {
+  return fmt::format("{}\n", fmt::join(cells, ","));
+}
+
+std::string text_line(const std::vector<std::string>& cells) {
+  return fmt::format("{}\n", fmt::join(cells, " "));
+}
+
+}  // namespace trisect::report
