@@ -25,7 +25,7 @@ int fail(int code, const std::string& message) {
   return code;
 }
 
-// The text of `render`'s own options.
+// Values of `render`'s own options, as text that is parsed after CLI11 is done.
 struct RenderText {
   SceneText scene;
   std::optional<std::string> backend;
@@ -59,13 +59,13 @@ void add_render(CLI::App& app, RenderOptions& options, RenderText& text) {
       ->type_name("FILE.json");
 }
 
-// The text of `crosscheck`'s own options.
+// The same of `crosscheck`.
 struct CrosscheckText {
   SceneText scene;
   std::optional<std::string> backends;
 };
 
-// --json and --diff, of the commands that compare.
+// Adds --json and --diff to a command that compares frames.
 void add_comparison_files(CLI::App* command, std::string& json, std::string& diff) {
   command->add_option("--json", json, "Write the figures as JSON")
       ->check(not_empty())
@@ -105,7 +105,7 @@ void add_compare(CLI::App& app, CompareOptions& options, std::vector<std::string
   add_comparison_files(command, options.json, options.diff);
 }
 
-// The text of `accuracy`'s options.
+// The same of `accuracy`.
 struct AccuracyText {
   std::optional<std::string> size;
   std::optional<std::string> surface;

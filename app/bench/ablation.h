@@ -1,4 +1,4 @@
-// What each step from the thesis's way to this program's is worth.
+// Measures the effect of each step from the thesis's tracer to this program's.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +12,10 @@
 
 namespace trisect::bench {
 
-// A way to make a frame that differs in one thing from another one.
+// A tracer that differs from that of another step in one choice.
 struct Step {
-  std::string change;    // what that is
-  std::size_t from = 0;  // index of the other one; its own, if there is none
+  std::string change;    // that choice
+  std::size_t from = 0;  // index of the other step; its own index if there is none
   Measurement measurement;
 };
 
@@ -27,7 +27,7 @@ struct Ablation {
   std::vector<Step> steps;
 };
 
-// Measures all steps in turns. Throws what Vulkan's devices throw.
+// Measures all steps in turns. Throws InputError and DeviceError.
 Ablation measure_ablation(const gpu::Device& device, const AblationOptions& options,
                           const std::string& model, uint surface);
 

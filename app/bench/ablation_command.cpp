@@ -24,7 +24,7 @@ using bench::Ablation;
 
 int bench_ablation(const AblationOptions& options) {
   bench::expect_gnuplot();
-  // What is wrong with a model is said before anything is measured.
+  // Reads all models first, so that a bad one is reported before anything is measured.
   for (const std::string& model : options.models) build_mesh(read_obj(model), model);
   const gpu::Instance instance(false);
   const gpu::Device device(instance, options.device);

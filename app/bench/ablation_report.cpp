@@ -83,7 +83,6 @@ nlohmann::ordered_json json_of(const std::vector<Ablation>& ablations) {
   return all;
 }
 
-// Two panels beside each other: milliseconds, and pixels that are not right.
 std::string plot_script(const Ablation& ablation, const std::string& terminal,
                         const std::string& file) {
   std::string script =

@@ -10,7 +10,7 @@ namespace {
 
 CLI::App& subcommand(CLI::App& bench, const std::string& name, const std::string& what) {
   CLI::App* command = bench.add_subcommand(name, what);
-  // Of an option that is given twice the last one counts.
+  // The last of a repeated option counts.
   command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   return *command;
 }
@@ -110,7 +110,7 @@ int CommandLine::run() {
     pareto_.divisions = {1, 4, 16};
     pareto_.finest_error = 0.0;
   }
-  // What all of them have.
+  // The options that the other subcommands share.
   const auto apply = [&](MeasuredModels& options) {
     if (text_.size) parse_size("--size", *text_.size, options.width, options.height);
     if (text_.surface) options.surfaces = {surface_of(*text_.surface)};

@@ -20,18 +20,19 @@ class CommandLine {
   CommandLine& operator=(CommandLine&&) = delete;
   ~CommandLine() = default;
 
-  // Does what was parsed; returns an exit code. Throws UsageError for options that make no sense.
+  // Runs the subcommand that was parsed and returns its exit code. Throws UsageError for malformed
+  // values.
   int run();
 
  private:
-  // Options that CLI11 hands over as text, or whose absence means something.
+  // Values of options as CLI11 hands them over; nothing if an option is not given.
   struct Text {
     std::optional<std::string> size;
     std::optional<std::string> surface;
     std::optional<uint32_t> runs;
   };
 
-  // The options of `text_`.
+  // Adds the options whose values go into `text_`.
   void add_frames(CLI::App& command, const MeasuredModels& defaults);
   void add_speed();
   void add_pareto();

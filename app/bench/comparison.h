@@ -1,4 +1,4 @@
-// Contenders that are measured together: in turns, and each against what the oracle sees.
+// Contenders that are timed in turns, and whose frames are compared with the oracle's.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ struct ImageSize {
   uint32_t height;
 };
 
-// A baked model with its cages, seen, and what the oracle sees.
+// A baked model with its subpatch bounds, its camera, and the oracle's frame.
 struct View {
   BakedScene scene;
   TraceParams params{};
@@ -33,7 +33,7 @@ struct View {
 
 // A model with one surface, in both shells.
 struct Subject {
-  // Reads the model, and has the oracle look at it. Throws InputError.
+  // Reads and bakes the model, and traces it with the oracle. Throws InputError.
   Subject(const std::string& file, uint surface_choice, const ImageSize& image_size);
 
   std::string model;  // its short name
@@ -42,7 +42,7 @@ struct Subject {
   Mesh mesh;
   View height;
   View normal;
-  // normal's; apart, so that the memory of the others has no tree in it.
+  // normal.scene with a tree. A copy, so that the other contenders do not upload the tree.
   BakedScene with_tree;
 };
 
@@ -50,7 +50,7 @@ struct Subject {
 TraceParams params_of(const Mesh& mesh, const BakedScene& scene, const ImageSize& size, uint solver,
                       uint32_t rank);
 
-// One contender's.
+// What is measured of one contender.
 struct Measurement {
   std::string family;  // contenders that differ in one number only
   std::string number;  // such as "Rank 10"; empty if there is none
@@ -65,14 +65,16 @@ std::size_t wrong_pixels(const Measurement& one);
 
 class Comparison {
  public:
-  // The view, by which it is judged, must outlive the field.
+  // view: its truth judges the contender. It must outlive this object.
   void add(const std::string& family, const std::string& number, const View& view,
            std::unique_ptr<Contender> contender);
 
-  // The frame of one of them, with AOVs.
+  // Renders the contender of this family and number, with AOVs, into `frame`.
   void inspect(const std::string& family, const std::string& number, Frame& frame);
 
-  // runs: timed frames of each, after a warm-up. The order is that in which they were added.
+  // Measures all contenders, in the order in which they were added. runs: timed frames of each,
+  // after a warm-up. The contenders take turns, so that other load on the machine affects all
+  // alike.
   std::vector<Measurement> measure(const std::string& model, uint32_t runs);
 
  private:

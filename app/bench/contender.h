@@ -1,4 +1,4 @@
-// A way to make a scene's frame, for commands that measure several of them.
+// The interface of what is measured: a way to render a frame of a scene.
 #pragma once
 
 #include <cstddef>
@@ -25,28 +25,28 @@ class Contender {
   // Colours only. Returns milliseconds: on a Vulkan device by its clock, else by the host's.
   virtual double render(Frame& frame) = 0;
 
-  // The same with AOVs and, if the contender counts it, its work. Not to be timed.
+  // The same frame with AOVs and, if the contender counts it, its work. Not for timing.
   virtual void inspect(Frame& frame) = 0;
 
-  // What its scene takes, image aside.
+  // Memory for the scene, without images.
   [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
-// All of them keep references to the scene and the device.
+// All contenders below keep references to the scene and the device, which must outlive them.
 
-// Writes an image and nothing else: no frame is faster.
+// Writes an image and traces nothing: a lower bound of every frame's time.
 std::unique_ptr<Contender> image_only(const gpu::Device& device, const TraceParams& params);
 
-// This program's kernels for a scene and an image size, made when they are needed. What they write
-// and count is not the choice's to say.
+// This program's kernels for a scene and an image size, compiled when they are first needed.
+// render() and inspect() decide about AOVs and counts, whatever the choice says.
 class Kernels;
 std::shared_ptr<Kernels> kernels_for(const gpu::Device& device, const BakedScene& scene,
                                      const KernelChoice& choice);
 
-// They may serve several contenders, of parameters of the same image size.
+// Several contenders may share kernels if their images have the same size.
 std::unique_ptr<Contender> on_vulkan(std::shared_ptr<Kernels> kernels, const TraceParams& params);
 
-// How Embree's rays go.
+// How rays are handed to Embree.
 enum class EmbreeRays {
   packets,  // rtcIntersect16, coherent, of 4 x 4 pixels
   single,   // rtcIntersect1

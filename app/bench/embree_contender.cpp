@@ -25,13 +25,13 @@ struct Release {
 template <typename Handle>
 using Held = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
 
-// Counts the bytes that Embree has; never refuses.
+// Embree's memory monitor: adds up what is allocated and freed, and allows every allocation.
 bool count_bytes(void* counter, ssize_t bytes, bool) {
   static_cast<std::atomic<ssize_t>*>(counter)->fetch_add(bytes);
   return true;
 }
 
-// Pixels of a packet, a square.
+// A packet is a square of 4 x 4 pixels.
 constexpr uint32_t kSide = 4;
 constexpr uint32_t kPacket = kSide * kSide;
 
@@ -161,7 +161,8 @@ class OnEmbree : public Contender {
     });
   }
 
-  // t: from the near point.
+  // flat: the flat triangle that is hit, or NO_TRIANGLE. u, v: its barycentric coordinates there.
+  // t: the distance from the ray's near point.
   void shade(Kernel& kernel, const Kernel::PixelRay& ray, uint32_t x, uint32_t y, uint32_t flat,
              float u, float v, float t, Frame& frame) const {
     in_float::Hit hit{};

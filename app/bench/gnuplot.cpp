@@ -16,7 +16,8 @@
 namespace trisect::bench {
 namespace {
 
-// The exit code of gnuplot with one argument, its output thrown away; -1 if it did not run.
+// Runs gnuplot with one argument and discards its output. Returns its exit code, or -1 if it did
+// not run.
 int gnuplot(std::string argument) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -34,7 +35,7 @@ int gnuplot(std::string argument) {
   return WEXITSTATUS(status);
 }
 
-// A file of a name that nobody else has, removed at the end.
+// A temporary file, removed by the destructor.
 class Script {
  public:
   explicit Script(const std::string& text) {

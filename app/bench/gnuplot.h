@@ -1,4 +1,4 @@
-// Plots, by the program gnuplot.
+// Draws plots with the program gnuplot.
 #pragma once
 
 #include <string>

@@ -9,7 +9,7 @@
 
 namespace trisect {
 
-// What commands have that time frames of models.
+// Options of commands that time frames of models.
 struct MeasuredModels {
   std::vector<std::string> models;
   std::vector<uint> surfaces{SURFACE_PHONG, SURFACE_SPHERE};
@@ -25,15 +25,18 @@ struct BenchOptions : MeasuredModels {
     height = 600;
   }
 
-  // That Embree's flat triangles may be off the surface, over the scene's radius.
+  // The most that Embree's flat triangles may be off the surface, over the scene's radius.
   double error = 1e-6;
   std::string json;
 };
 
 struct ParetoOptions : MeasuredModels {
-  std::vector<uint32_t> ranks{4, 6, 8, 10, 12, 14, 18, 24, 30};  // of the bisection; 10 among them
-  std::vector<uint32_t> divisions{1, 2, 4, 8, 16, 32, 64};       // of flat triangles' edges
-  // Flat triangles are tried as fine as this error asks for, too; 0: they are not.
+  // Of the bisection. The report needs Rank 10.
+  std::vector<uint32_t> ranks{4, 6, 8, 10, 12, 14, 18, 24, 30};
+  // Flat triangles of a patch: each of its edges is cut into so many.
+  std::vector<uint32_t> divisions{1, 2, 4, 8, 16, 32, 64};
+  // Flat triangles are also measured as fine as this error demands, over the scene's radius.
+  // 0: they are not.
   double finest_error = 1e-6;
   std::string output;  // a folder
   // What `trisect hardcases --json` wrote, for the report to show; empty: nothing.
@@ -45,7 +48,7 @@ struct AblationOptions : MeasuredModels {
 };
 
 struct StabilityOptions {
-  uint32_t rays = 100;  // for every value of what is varied
+  uint32_t rays = 100;  // for each value of the parameter that is varied
   std::string output;   // a folder
 };
 

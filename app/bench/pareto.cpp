@@ -58,7 +58,7 @@ Scene measure_scene(const gpu::Device& device, const ParetoOptions& options,
       comparison.add(embree_name(rays), fmt::format("n = {}", n), normal,
                      on_embree(normal.scene, cut, normal.params, rays));
     }
-    // The most that OpenGL promises.
+    // OpenGL guarantees tessellation levels up to 64.
     if (n > 64) continue;
     comparison.add(kRasterizer, fmt::format("level {}", n), normal,
                    on_opengl(normal.scene, normal.params, n));

@@ -1,4 +1,4 @@
-// Time against error, of every way to draw a model.
+// Measures time against error of all ways to draw a model.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,8 @@ struct Scene {
   uint surface = SURFACE_PHONG;
   std::size_t patches = 0;
   std::vector<Measurement> measurements;
-  // For pictures: what the oracle sees of the thesis's surface, and the thesis's way at Rank 10.
+  // For the report's pictures, in the height shell: the oracle's frame, and the thesis's bisection
+  // at Rank 10.
   Frame truth;
   Frame thesis;
 };
@@ -28,7 +29,8 @@ constexpr const char* kRobustTiles = "robust, tiles";
 constexpr const char* kThesisHeight = "thesis, height shell";
 constexpr const char* kRasterizer = "OpenGL tessellation";
 
-// Measures all contenders in turns. Throws what Vulkan's and OpenGL's devices throw.
+// Measures all contenders in turns. An OpenGL context must be current. Throws InputError and
+// DeviceError.
 Scene measure_scene(const gpu::Device& device, const ParetoOptions& options,
                     const std::string& model, uint surface);
 

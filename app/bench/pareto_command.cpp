@@ -87,7 +87,7 @@ std::vector<Block> report_of(const std::vector<bench::Scene>& scenes,
 
 int bench_pareto(const ParetoOptions& options) {
   bench::expect_gnuplot();
-  // What is wrong with a model is said before anything is measured.
+  // Reads all models first, so that a bad one is reported before anything is measured.
   for (const std::string& model : options.models) build_mesh(read_obj(model), model);
   std::optional<bench::StressTable> hard;
   if (!options.hardcases.empty()) hard = bench::read_stress_table(options.hardcases);

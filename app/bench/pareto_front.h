@@ -1,4 +1,4 @@
-// Which of several ways are worth taking.
+// The Pareto front of time and error.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,9 @@ struct Point {
   double ms;
 };
 
-// For each point another one that is no worse in either and better in one of the two, the fastest
-// of them; nothing for the points of the Pareto front. A NaN is dominated by every number.
+// For each point the index of a point that dominates it, that is, one that is no worse in error and
+// in time and better in one of them; the fastest if there are several. Nothing for the points of
+// the Pareto front. A NaN counts as infinite.
 std::vector<std::optional<std::size_t>> dominating(const std::vector<Point>& points);
 
 }  // namespace trisect::bench

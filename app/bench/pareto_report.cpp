@@ -166,7 +166,7 @@ std::vector<std::string> findings_of(const Scene& scene) {
         "The thesis at Rank 10 takes {:.1f} times as long and has {} wrong or missed pixels.",
         thesis->ms.median / robust->ms.median, wrong_pixels(*thesis)));
   }
-  // Missed pixels aside: an outline of flat triangles misses some however fine it is.
+  // Missed pixels do not count: the outline of flat triangles misses some, however fine they are.
   const Measurement* fine = fastest(
       scene, [](const Measurement& one) { return is_embree(one) && one.errors.off.p99 <= 1e-5; });
   if (fine != nullptr) {

@@ -14,18 +14,18 @@ namespace trisect::bench {
 std::string csv_of(const std::vector<Scene>& scenes);
 nlohmann::ordered_json json_of(const std::vector<Scene>& scenes);
 
-// What a scene's measurements say: of the claims that robust is the fastest at its error, each true
-// or not.
+// Sentences about a scene's measurements: whether the robust solver is on the Pareto front, and how
+// its time and error compare with the thesis's bisection and with Embree.
 std::vector<std::string> findings_of(const Scene& scene);
 
-// A script for gnuplot: time over error, and time over pixels that are wrong. terminal: gnuplot's,
-// with options.
+// A gnuplot script that draws time over error and time over wrong pixels. terminal: gnuplot's
+// terminal with its options. file: where gnuplot writes the picture.
 std::string plot_script(const Scene& scene, const std::string& terminal, const std::string& file);
 
-// The scene's table.
+// One row per contender.
 report::Table table_of(const Scene& scene);
 
-// "teapot-phong": of its files.
+// The stem of the names of the scene's files, such as "teapot-phong".
 std::string name_of(const Scene& scene);
 
 }  // namespace trisect::bench

@@ -1,4 +1,4 @@
-// Who measured what a report says.
+// What a report's measurements were made with.
 #pragma once
 
 #include <string>

@@ -33,14 +33,14 @@ using bench::Contender;
 using bench::EmbreeRays;
 using bench::SampleCheck;
 
-// Between the pixels that the oracle is asked about.
+// The oracle checks every 20th pixel of every 20th row.
 constexpr uint32_t kCheckStep = 20;
 
 struct Runner {
   std::string name;
   std::unique_ptr<Contender> contender;
-  const SampleCheck* check;     // nothing if its picture means nothing
-  std::optional<double> build;  // milliseconds for what its rays go by
+  const SampleCheck* check;     // null if its image shows no scene
+  std::optional<double> build;  // milliseconds for the structure that its rays traverse
   std::size_t wrong = 0;
   std::vector<double> times;
 };
@@ -100,7 +100,7 @@ class Race {
       row.contender->render(frame);
       if (row.check != nullptr) row.wrong = row.check->count_wrong(frame);
     }
-    // Side by side: what else the machine does meets all alike.
+    // In turns, so that other load on the machine affects all contenders alike.
     for (uint32_t run = 0; run < options_.runs; ++run) {
       for (Runner& row : rows_) {
         row.times.push_back(row.contender->render(frame));

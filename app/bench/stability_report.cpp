@@ -8,7 +8,6 @@
 #include "app/report/columns.h"
 
 namespace trisect::bench {
-
 namespace {
 
 using report::Columns;

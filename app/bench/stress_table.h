@@ -12,8 +12,8 @@ struct StressTable {
   report::Table table;
 };
 
-// Of what `trisect hardcases --json` wrote into the file. Throws InputError, naming it, if that
-// cannot be read.
+// Reads a file that `trisect hardcases --json` wrote. Throws InputError, naming the file, if it
+// cannot be read or is no such file.
 StressTable read_stress_table(const std::string& file);
 
 }  // namespace trisect::bench

@@ -1,4 +1,4 @@
-// Curved triangles cut into flat ones, as others draw them.
+// Subdivision of curved triangles into flat ones, as other renderers draw them.
 #pragma once
 
 #include <cstddef>
@@ -19,18 +19,18 @@ struct Tessellation {
 
 Tessellation tessellate(const BakedScene& scene, uint32_t n);
 
-// The weights in its triangle of a point that has weights u and v of the second and third corner of
-// flat triangle `index` of its n^2.
+// The barycentric weights, in its patch, of a point of flat triangle `index` of the patch's n^2,
+// where u and v are the weights of that triangle's second and third corner.
 glm::vec3 weights_in_patch(uint32_t n, uint32_t index, float u, float v);
 
-// How far the surface is off the flat triangles along their normals, the most over their middles
-// and those of their edges, over the scene's radius.
+// The largest distance of the surface from the flat triangles along their normals, sampled at their
+// centroids and the midpoints of their edges, over the scene's radius.
 double tessellation_error(const BakedScene& scene, uint32_t n);
 
-// The least n that brings the error down to `error`, at most `most`.
+// An n, close to the least, whose tessellation_error() is at most `error`; at most `most`.
 uint32_t divisions_for(const BakedScene& scene, double error, uint32_t most);
 
-// The same, with at most sixteen million flat triangles, which 24 GiB bear.
+// The same, with at most sixteen million flat triangles, which fit into 24 GiB of memory.
 uint32_t affordable_divisions_for(const BakedScene& scene, double error);
 
 }  // namespace trisect::bench

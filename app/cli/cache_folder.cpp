@@ -5,7 +5,7 @@
 namespace trisect {
 
 std::optional<std::filesystem::path> cache_folder() {
-  // A relative path is to be ignored, as the specification has it.
+  // The specification says to ignore relative paths.
   const auto absolute = [](const char* name) -> std::filesystem::path {
     const char* value = std::getenv(name);
     const std::filesystem::path path(value == nullptr ? "" : value);

@@ -1,4 +1,4 @@
-// Where the program keeps what it may lose.
+// The folder for files that the program can make again, such as compiled pipelines.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,8 @@
 
 namespace trisect {
 
-// $XDG_CACHE_HOME/trisect, or ~/.cache/trisect; nothing if there is neither (XDG Base Directory
-// Specification 0.8).
+// $XDG_CACHE_HOME/trisect, or ~/.cache/trisect; nothing if neither variable holds an absolute path
+// (XDG Base Directory Specification 0.8).
 std::optional<std::filesystem::path> cache_folder();
 
 }  // namespace trisect

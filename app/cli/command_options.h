@@ -1,4 +1,4 @@
-// Options that several commands have, and what their values may be.
+// Options that several commands share, and checks of their values.
 #pragma once
 
 #include <fmt/format.h>
@@ -32,25 +32,26 @@ CLI::Validator number_from_to(Number low, Number high) {
 
 CLI::Validator not_empty();
 
+// Accepts these names only.
 CLI::Validator one_of(const std::vector<std::string>& names);
 
-// What the names of the command line stand for.
+// The constants for the names of --surface and --shell, which one_of() has checked.
 uint surface_of(const std::string& name);
 uint shell_of(const std::string& name);
 
-// MODEL ...
+// Adds MODEL ..., one or more files.
 void add_models(CLI::App& command, std::vector<std::string>& models);
 
-// --size, of which help says that `standard` is the default.
+// Adds --size. Its help names `standard` as the default.
 void add_size(CLI::App& command, std::optional<std::string>& size, const std::string& standard);
 
-// --surface, of commands that take both of the curved ones without it.
+// Adds --surface to a command whose default is both curved surfaces.
 void add_surfaces(CLI::App& command, std::optional<std::string>& surface);
 
-// --device.
+// Adds --device.
 void add_device(CLI::App& command, std::string& device);
 
-// --json, of commands that print a table.
+// Adds --json to a command that prints a table.
 void add_table_json(CLI::App& command, std::string& json);
 
 }  // namespace trisect

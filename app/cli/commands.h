@@ -1,4 +1,5 @@
-// What the program does, one function a command. They throw what error.h has, or DeviceError.
+// The commands of the program, one function each. They throw the exceptions of app/base/error.h,
+// and Interrupted.
 #pragma once
 
 #include "app/cli/options.h"
@@ -8,19 +9,19 @@ namespace trisect {
 // Renders the model to the output file and prints the figures; returns an exit code.
 int render(const RenderOptions& options);
 
-// Compares the solvers with the oracle, prints a table; returns exit_different if the robust one
-// does not keep its promises.
+// Compares the solvers with the oracle and prints a table. Returns exit_different if the robust
+// solver does not keep its promises.
 int accuracy(const AccuracyOptions& options);
 
 // Measures the solvers on the catalogue of hard cases and prints the table; returns an exit code.
 int hardcases(const HardcasesOptions& options);
 
-// Renders with each back end and compares every pair; returns exit_different if one is farther
-// apart than tolerance_between() allows.
+// Renders with each back end and compares every pair of frames. Returns exit_different if a pair is
+// farther apart than tolerance_between() allows.
 int crosscheck(const CrosscheckOptions& options);
 Tolerance tolerance_between(Backend a, Backend b, GlPath gl_path);
 
-// Compares two image files; returns exit_different if they are farther apart than asked for.
+// Compares two image files. Returns exit_different if they are farther apart than the tolerance.
 int compare_images(const CompareOptions& options);
 
 // Lists the Vulkan devices; returns an exit code.

@@ -23,7 +23,7 @@ nlohmann::ordered_json to_json(const FrameComparison& c) {
   }
   json["color_rmse"] = c.color_rmse;
   json["color_max"] = c.color_max;
-  // JSON knows no infinity: null.
+  // Infinite if no colour differs; JSON has no infinity, so null is written.
   json["psnr"] = c.psnr;
   return json;
 }

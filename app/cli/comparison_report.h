@@ -12,20 +12,21 @@
 
 namespace trisect {
 
-// Compares, and prints the figures under the frames' names. Returns them: "a", "b", the figures,
-// and under "excesses" what exceeds the tolerance. Throws InputError if the sizes differ.
+// Compares two frames and prints the figures under the frames' names. Returns an object with the
+// names as "a" and "b", the figures, and under "excesses" what exceeds the tolerance. Throws
+// InputError if the sizes differ.
 nlohmann::ordered_json report_pair(const std::string& name_a, const Frame& a,
                                    const std::string& name_b, const Frame& b,
                                    const Tolerance& tolerance);
 
-// The files of --json and --diff, of which either may be empty: not asked for. Made before the work
-// and written after it.
+// The files of --json and --diff; an empty path means that the file is not asked for. They are
+// opened before the frames are made, so that a path that cannot be written is reported at once.
 class ComparisonFiles {
  public:
   // Throws InputError or UsageError, naming the file.
   ComparisonFiles(const std::string& json, const std::string& diff);
 
-  // diff: comparison_picture(a, b).
+  // Writes `json`, and comparison_picture(a, b) to the file of --diff.
   void write(const nlohmann::ordered_json& json, const Frame& a, const Frame& b);
 
  private:

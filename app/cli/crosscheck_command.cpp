@@ -17,8 +17,9 @@ namespace trisect {
 
 Tolerance tolerance_between(Backend a, Backend b, GlPath gl_path) {
   const auto either = [&](Backend backend) { return a == backend || b == backend; };
-  // The oracle has ties on shared edges and pixels that single precision cannot decide. Rays that
-  // OpenGL interpolates are others, by some roundings: pixels on an outline or an edge may turn.
+  // Frames differ from the oracle's on edges that two triangles share, where either may be hit, and
+  // at pixels that single precision cannot decide. OpenGL's fragment path interpolates its rays,
+  // which differ from the kernel's by a few roundings: pixels on an outline or an edge may change.
   if (either(Backend::oracle)) return {2e-4, 5e-4, Tolerance::kAny, 0.25, Tolerance::kAny};
   if (either(Backend::opengl) && gl_path == GlPath::fragment) {
     return {1e-4, 5e-4, Tolerance::kAny, 0.25, Tolerance::kAny};

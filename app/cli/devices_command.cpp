@@ -11,7 +11,7 @@ namespace trisect {
 int list_devices() {
   const gpu::Instance instance(false);
   const std::vector<gpu::DeviceReport> reports = instance.reports();
-  if (reports.empty()) gpu::choose_device(reports, "");  // throws, saying so
+  if (reports.empty()) gpu::choose_device(reports, "");  // throws: there is no device
   bool any_usable = false;
   for (std::size_t i = 0; i < reports.size(); ++i) {
     const gpu::DeviceReport& report = reports[i];

@@ -13,10 +13,10 @@ class Interrupted : public std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
-// From now on the first SIGINT or SIGTERM is remembered; the second ends the program at once.
+// Installs the handlers: the first SIGINT or SIGTERM is remembered, the second ends the program.
 void catch_interrupts();
 
-// Whether no signal has come: what long steps of the library ask.
+// True until a signal has come. Long steps of the library ask this to learn whether to go on.
 bool not_interrupted();
 
 // Throws Interrupted if a signal has come.

@@ -16,7 +16,7 @@
 namespace trisect {
 namespace {
 
-// Runs a step and tells its milliseconds.
+// Runs a step, sets `ms` to the milliseconds that it took, and shows its name meanwhile.
 template <typename Step>
 auto timed(const std::string& name, double& ms, Step&& step) {
   const Stopwatch watch;
@@ -74,7 +74,7 @@ TraceResult trace_showing_progress(const TraceRequest& request, const BakedScene
   constexpr double steps = 1000.0;
   ProgressLine line("rendering", static_cast<uint64_t>(steps));
   return finished(trace_scene(request, scene, params, choice, [&](double done) {
-    // A device does not say how far it is.
+    // Vulkan and OpenGL report no progress: `done` stays 0.
     return done > 0.0 ? line.show(static_cast<uint64_t>(done * steps)) : not_interrupted();
   }));
 }

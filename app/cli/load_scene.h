@@ -11,7 +11,7 @@
 
 namespace trisect {
 
-// What decides how the image is traced.
+// What the choice of the acceleration depends on.
 AccelRequest accel_request(const RenderOptions& options);
 
 // Throws UsageError if the image has too many rays a side.
@@ -28,12 +28,11 @@ struct LoadedScene {
 // Reads, bakes and frames the model, and prints a line about it. Throws InputError or UsageError.
 LoadedScene load_scene(const RenderOptions& options);
 
-// trace_scene, with a line on the terminal that says how far it is. Throws Interrupted if the user
-// stops it.
+// trace_scene() with a progress line on the terminal. Throws Interrupted if the user stops it.
 TraceResult trace_showing_progress(const TraceRequest& request, const BakedScene& scene,
                                    const TraceParams& params, const KernelChoice& choice);
 
-// Builds the tree over the scene's parts.
+// Builds the tree over the scene's subpatches and measures the time.
 void add_bvh(LoadedScene& loaded);
 
 }  // namespace trisect

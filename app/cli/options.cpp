@@ -13,7 +13,7 @@
 namespace trisect {
 namespace {
 
-// The number that `text` begins with, which is cut off; false if there is none.
+// Reads the number that `text` begins with and removes it; false if there is none.
 template <typename Number>
 bool take_number(std::string_view& text, Number& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -50,7 +50,7 @@ glm::dvec3 parse_triple(const std::string& option, const std::string& text) {
   const bool parsed = take_number(rest, value.x) && take_character(rest, ',') &&
                       take_number(rest, value.y) && take_character(rest, ',') &&
                       take_number(rest, value.z) && rest.empty();
-  // What the bake allows a model, and a good way beyond; NaN is not within it.
+  // Well beyond the coordinates that the bake allows a model. NaN fails the comparisons below.
   constexpr double largest = 1e12;
   const glm::dvec3 size = glm::abs(value);
   if (!parsed || !(size.x <= largest && size.y <= largest && size.z <= largest)) {

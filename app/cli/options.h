@@ -14,7 +14,7 @@
 
 namespace trisect {
 
-// The most pixels of an image's side, and rays in a row of them.
+// The most pixels along a side of an image, and the most rays along it with several per pixel.
 constexpr uint32_t kLargestSide = 16384;
 
 struct RenderOptions {
@@ -27,7 +27,7 @@ struct RenderOptions {
   double alpha = 0.65;
   uint solver = SOLVER_ROBUST;
   uint32_t rank = 10;
-  std::optional<Accel> accel;  // by itself if not given
+  std::optional<Accel> accel;  // chosen by the program if not given
   bool evals = false;
   std::optional<glm::dvec3> eye;
   std::optional<glm::dvec3> target;
@@ -41,7 +41,7 @@ struct RenderOptions {
   std::string device;
   bool validation = false;
   uint32_t runs = 1;
-  uint32_t spp = 1;  // rays a pixel: a square number
+  uint32_t spp = 1;  // rays per pixel, a square number
   std::string stats;
 
   bool operator==(const RenderOptions&) const = default;
@@ -65,7 +65,7 @@ struct HardcasesOptions {
 };
 
 struct CrosscheckOptions {
-  RenderOptions render;  // of which output, backend, runs and stats mean nothing
+  RenderOptions render;  // output, backend, runs and stats are not used
   std::vector<Backend> backends{Backend::vulkan, Backend::opengl};
   std::string json;
   std::string diff;

@@ -1,4 +1,4 @@
-// Lines on a terminal that say how far a long step is.
+// Lines on a terminal that show the progress of a long step.
 #pragma once
 
 #include <chrono>
@@ -10,8 +10,8 @@
 
 namespace trisect {
 
-// Nothing is shown of a step that takes less than a second, and nothing at all where standard error
-// is not a terminal.
+// Shows nothing for a step that takes less than a second, and nothing at all if standard error is
+// not a terminal.
 class ProgressLine {
  public:
   ProgressLine(std::string step, uint64_t total);
@@ -22,7 +22,8 @@ class ProgressLine {
   ProgressLine(ProgressLine&&) = delete;
   ProgressLine& operator=(ProgressLine&&) = delete;
 
-  // done: of the total. Returns not_interrupted(): what long steps of the library want to know.
+  // done: from 0 to the total. Returns not_interrupted(), so that the call can serve as the
+  // progress callback of a long step of the library.
   bool show(uint64_t done);
 
  private:
@@ -32,8 +33,8 @@ class ProgressLine {
   bool shown_ = false;
 };
 
-// A line that says how long a step has taken for which nobody knows how far it is. Shown as long as
-// it lives, under the same conditions.
+// A line with the seconds that a step has taken so far, for a step that reports no progress. It is
+// shown while the object lives, under the conditions of ProgressLine.
 class BusyLine {
  public:
   explicit BusyLine(std::string step);

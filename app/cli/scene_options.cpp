@@ -16,7 +16,7 @@ void add_gl_path(CLI::App& command, std::optional<std::string>& text) {
       ->type_name("NAME");
 }
 
-// None of the name auto.
+// Nothing for "auto".
 std::optional<Accel> accel_of(const std::string& name) {
   for (const Accel accel : {Accel::list, Accel::tiles, Accel::bvh, Accel::rayquery}) {
     if (name == accel_name(accel)) return accel;
@@ -27,7 +27,7 @@ std::optional<Accel> accel_of(const std::string& name) {
 }  // namespace
 
 void add_scene(CLI::App& command, RenderOptions& options, SceneText& text) {
-  // As add_view has it: the last one counts.
+  // As for the options of add_view, the last one counts.
   command.add_option("MODEL", options.model, "OBJ file")->required()->take_last();
   add_view(command, options, text);
   add_gl_path(command, text.gl_path);
@@ -35,7 +35,7 @@ void add_scene(CLI::App& command, RenderOptions& options, SceneText& text) {
 }
 
 void add_view(CLI::App& command, RenderOptions& options, SceneText& text) {
-  // Of an option that is given twice the last one counts.
+  // The last of a repeated option counts.
   command.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   add_size(command, text.size, "800x600");
   command

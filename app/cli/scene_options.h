@@ -1,4 +1,4 @@
-// What is rendered, from where and how: the options that `render` and `crosscheck` share.
+// The options that `render` and `crosscheck` share: the model, the camera, how rays are traced.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -9,8 +9,8 @@
 
 namespace trisect {
 
-// Options that CLI11 hands over as text and options.h parses, and the rank, of which --preset has
-// a say, too.
+// Values of options as CLI11 hands them over, which parse_scene() parses. The rank is here because
+// --preset sets it unless --rank is given.
 struct SceneText {
   std::string surface;
   std::optional<std::string> accel;
@@ -26,19 +26,19 @@ struct SceneText {
   std::optional<std::string> light;
 };
 
-// MODEL, which must be given, the options of add_view, --gl-path and --device. `options` and `text`
-// must outlive the parse; what stands in `options` stays if nothing is given.
+// Adds MODEL, which is required, the options of add_view, --gl-path and --device. `options` and
+// `text` must outlive the parse; `options` holds the defaults.
 void add_scene(CLI::App& command, RenderOptions& options, SceneText& text);
 
-// How it is rendered. Of an option that is given twice the last one counts, of those that the
-// command gets later, too.
+// Adds the options that say how a model is rendered. The last of a repeated option counts, also for
+// options that the command gets later.
 void add_view(CLI::App& command, RenderOptions& options, SceneText& text);
 
-// --spp.
+// Adds --spp.
 void add_spp(CLI::App& command, uint32_t& spp);
 
-// Lays what was given over `options`. Throws UsageError, naming the option, for a value that is
-// none and for options that do not go together.
+// Parses what was given into `options`. Throws UsageError, naming the option, for a malformed value
+// and for options that exclude each other.
 void parse_scene(const SceneText& text, RenderOptions& options);
 
 }  // namespace trisect

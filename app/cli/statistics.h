@@ -1,4 +1,4 @@
-// What a render prints of itself, for people and for programs.
+// The statistics of a render, as text for people and as JSON for programs.
 #pragma once
 
 #include <cstdint>
@@ -27,12 +27,12 @@ Spread spread_of(std::vector<double> values);
 // Its members under their names.
 nlohmann::ordered_json json_of(const Spread& spread);
 
-// Work over all pixels.
+// Work, summed over all pixels.
 struct WorkCounts {
-  uint64_t evaluations = 0;  // of a field (bisect) or of a surface with its derivatives (robust)
-  uint64_t candidates = 0;   // triangles or parts of triangles whose ball a pixel's ray meets
-  // Of the scene by the rays on their way, each its own: what several load together, or what a
-  // cache keeps, counts for each that asks for it. 0 if it is not counted.
+  uint64_t evaluations = 0;  // of the field (bisect) or of the surface with derivatives (robust)
+  uint64_t candidates = 0;   // triangles or subpatches whose bounds a pixel's ray meets
+  // Bytes of the scene that the traversal loads. A load that several rays share, or that a cache
+  // serves, counts once for each ray. 0 if it is not counted.
   uint64_t bytes_read = 0;
 };
 
@@ -45,9 +45,9 @@ struct RenderStatistics {
   Accel accel = Accel::list;
   std::size_t patches = 0;
   std::size_t hits = 0;
-  std::size_t scene_bytes = 0;       // on the device: triangles, cages, tree
-  std::optional<WorkCounts> counts;  // if asked for
-  std::vector<FrameTime> frames;     // the counted runs
+  std::size_t scene_bytes = 0;       // on the device: triangles, subpatch bounds, tree
+  std::optional<WorkCounts> counts;  // with --evals
+  std::vector<FrameTime> frames;     // the timed runs
   double load_ms = 0.0;
   double bake_ms = 0.0;
   std::optional<double> bvh_ms;  // if a tree was built

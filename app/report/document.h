@@ -1,4 +1,4 @@
-// A report as blocks, and these as Markdown or as a page of HTML that needs no other file.
+// A report as a list of blocks, written as Markdown or as an HTML page that embeds its pictures.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,7 @@ struct Table {
   std::vector<std::vector<std::string>> rows;  // the first one the header
 };
 struct Picture {
-  std::string file;  // .svg or .png, from the report's folder
+  std::string file;  // .svg or .png, relative to the report's folder
   std::string text;  // what it shows
 };
 using Block = std::variant<Heading, Paragraph, Items, Table, Picture>;

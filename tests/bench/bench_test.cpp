@@ -1,5 +1,5 @@
-// What the measurements are made of: flat triangles that stand for curved ones, and the check of a
-// frame at a grid of its pixels.
+// The pieces of the measurements: tessellation, checks of frames against the oracle, the Pareto
+// front, stability.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -105,7 +105,7 @@ TEST(Tessellation, ErrorIsTheSagittaOfTheSphere) {
     const double cosine = glm::dot(glm::dvec3(tri.Position[0]), glm::dvec3(tri.TriNormal));
     sagitta = std::max(sagitta, 1.0 - std::abs(cosine));
   }
-  // The middle that is looked at is not quite below the highest point.
+  // The sampled centroid is not quite below the highest point.
   EXPECT_NEAR(tessellation_error(scene, 1) * scene.radius, sagitta, 0.01 * sagitta);
   const double coarse = tessellation_error(scene, 8);
   EXPECT_NEAR(coarse / tessellation_error(scene, 16), 4.0, 0.1);
@@ -173,7 +173,7 @@ TEST(ParetoFront, LeavesOutWhatSomethingBeats) {
   EXPECT_TRUE(dominating({}).empty());
 }
 
-// What is measured of frames with an error that is known.
+// Frames with a known error, and what is measured of them.
 class FrameErrorsTest : public ::testing::Test {
  protected:
   FrameErrorsTest() {

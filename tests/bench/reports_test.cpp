@@ -70,7 +70,7 @@ TEST_F(Reports, ReportsSpeedAgainstError) {
                          "phong", "--size", "80x60", "--hardcases", table, "-o", folder_ / "r"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_NE(test::content_of(folder_ / "r" / "report.md").find("| needle |"), std::string::npos);
-  // Who measured, and what: as comments ahead of the table, too.
+  // The CSV begins with comments that say what the measurements were made with.
   const std::string csv = test::content_of(folder_ / "r" / "report.csv");
   EXPECT_EQ(csv.substr(0, 10), "# Vulkan: ");
   EXPECT_NE(csv.find(", commit "), std::string::npos);
@@ -120,7 +120,7 @@ TEST_F(Reports, ReportsWhatEachStepIsWorth) {
   // lost.
   EXPECT_GT(wrong(steps[0]), 10 * wrong(steps[1]));
   for (std::size_t i = 3; i < steps.size(); ++i) EXPECT_EQ(wrong(steps[i]), 0) << i;
-  // Tighter bounds leave fewer candidates; without tiles a ray meets the balls alone.
+  // Bounds of the control points are tighter than balls and leave fewer candidates.
   EXPECT_LT(steps[5]["candidates"].get<int>(), steps[4]["candidates"].get<int>());
 }
 

@@ -109,7 +109,8 @@ TEST_F(Program, PicksAnAccelerationAndSaysWhich) {
     std::ifstream file(folder_ / "s.json");
     return nlohmann::json::parse(file)["accel"].get<std::string>();
   };
-  // The model has more than four parts for each tile of the image, then less.
+  // The model has more than four subpatches for each tile of the small image, and fewer for the
+  // large one.
   EXPECT_EQ(accel({}), "bvh");
   EXPECT_EQ(accel({"--size", "240x160"}), "tiles");
   EXPECT_EQ(accel({"--accel", "auto", "--size", "240x160"}), "tiles");
