@@ -57,9 +57,10 @@ TEST(Owned, MovesWithoutDestroying) {
     create_fake(first, a.fill(VK_NULL_HANDLE));
     OwnedFake b(std::move(a));
     EXPECT_EQ(b.get(), &first);
-    create_fake(second, a.fill(VK_NULL_HANDLE));
+    OwnedFake c;
+    create_fake(second, c.fill(VK_NULL_HANDLE));
     // Assignment swaps: the other owner destroys what this one held.
-    b = std::move(a);
+    b = std::move(c);
     EXPECT_EQ(b.get(), &second);
     EXPECT_EQ(first.destroyed + second.destroyed, 0);
   }
