@@ -17,6 +17,7 @@ const report::Columns<StressRow>& hardcases_columns() {
       {{}, "rank", {}, [](auto& r) { return r.rank; }},
       {{}, "rays", {"rays", "{}"}, [](auto& r) { return r.outcome.rays; }, {"rays", "{}", 5}},
       {{}, "undecidable", {"undecidable", "{}"}, [](auto& r) { return r.outcome.undecidable; }, {"undec.", "{}", 6}},
+      {{}, "most_undecidable", {}, [](auto& r) { return r.most_undecidable; }},
       {{}, "wrong", {"wrong", "{}"}, [](auto& r) { return r.outcome.wrong; }, {"wrong", "{}", 6}},
       {{}, "missed", {"missed", "{}"}, [](auto& r) { return r.outcome.missed; }, {"missed", "{}", 6}},
       {{}, "depth_error_ulp_p50", {"p50 ulp", "{:.3g}"}, [](auto& r) { return r.error_ulp(0.5); }, {"p50 ulp", "{:.3g}", 8}},

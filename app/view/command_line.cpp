@@ -1,14 +1,15 @@
 #include "app/view/command_line.h"
 
 #include "app/cli/command_options.h"
+#include "app/cli/data_folder.h"
 #include "app/view/commands.h"
 
 namespace trisect::view {
 
 CommandLine::CommandLine(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("view", "Show a model in a window and walk around it");
-  options_.assets = TRISECT_ASSETS;
-  options_.shaders = TRISECT_SHADERS;
+  options_.assets = data_folder("assets", TRISECT_ASSETS).string();
+  options_.shaders = data_folder("shaders", TRISECT_SHADERS).string();
   options_.render.model = options_.assets + "/teapot.obj";
   add_view(command, options_.render, text_);
   command.add_option("MODEL", options_.render.model, "OBJ file, default the teapot");
