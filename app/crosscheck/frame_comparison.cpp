@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "app/base/error.h"
+#include "app/base/max_propagating_nan.h"
 
 namespace trisect {
 namespace {
@@ -58,7 +59,8 @@ void expect_same_size(const Frame& a, const Frame& b) {
 // As FrameComparison has it.
 struct ColorDifference {
   double rmse = 0.0;
-  double largest = 0.0;
+  double largest = 0.0;         // NaN if any is
+  double largest_number = 0.0;  // of those that are not NaN
 };
 
 ColorDifference color_difference(const Frame& a, const Frame& b) {
@@ -69,8 +71,8 @@ ColorDifference color_difference(const Frame& a, const Frame& b) {
       const double steps =
           255.0 * (static_cast<double>(a.colors[i][k]) - static_cast<double>(b.colors[i][k]));
       squares += steps * steps;
-      // Written this way round, a NaN becomes the largest and stays it.
-      if (!(std::abs(steps) <= difference.largest)) difference.largest = std::abs(steps);
+      max_propagating_nan(difference.largest, std::abs(steps));
+      if (std::abs(steps) > difference.largest_number) difference.largest_number = std::abs(steps);
     }
   }
   difference.rmse = std::sqrt(squares / (3.0 * static_cast<double>(a.colors.size())));
@@ -150,7 +152,7 @@ std::string to_text(const FrameComparison& c) {
 
 Frame comparison_picture(const Frame& a, const Frame& b) {
   expect_same_size(a, b);
-  const double largest = color_difference(a, b).largest;
+  const double largest = color_difference(a, b).largest_number;
   const auto gain = static_cast<float>(largest > 0.0 ? 255.0 / largest : 0.0);
   Frame picture;
   picture.width = 2 * a.width;

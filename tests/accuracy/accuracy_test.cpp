@@ -154,6 +154,10 @@ TEST_F(Robust, TheMeasureCanFail) {
   m.truth.pixels[middle].decidable = false;
   EXPECT_EQ(accuracy_of(m).wrong_hits, 0U);
   EXPECT_EQ(accuracy_of(m).undecidable, 1U);
+  // A NaN is a fault there, too.
+  m.frame.aovs[middle].normal_z.w = std::nanf("");
+  EXPECT_EQ(accuracy_of(m).undecidable, 1U);
+  EXPECT_EQ(accuracy_of(m).nans, 1U);
 }
 
 }  // namespace

@@ -228,6 +228,19 @@ TEST_F(FrameErrorsTest, CountAHitOfNothingAndNumbersThatAreNone) {
   EXPECT_GT(e.rms, 0.01);
 }
 
+TEST_F(FrameErrorsTest, LeaveOutUndecidablePixelsButCountTheirNans) {
+  Frame frame = shown_;
+  frame.aovs[middle_].normal_z.w = std::numeric_limits<float>::quiet_NaN();
+  OracleFrame truth = truth_;
+  const std::size_t undecidable = errors(frame).undecidable;
+  truth.pixels[middle_].decidable = false;
+  const FrameErrors e = errors_of(frame, truth, shown_, scene_, params_);
+  EXPECT_EQ(e.undecidable, undecidable + 1);
+  EXPECT_EQ(e.nans, 1U);
+  EXPECT_EQ(e.wrong + e.missed, 0U);
+  EXPECT_LT(e.rms, 1e-7);
+}
+
 TEST_F(FrameErrorsTest, MeasureDepthAcrossTheSurface) {
   Frame frame = shown_;
   for (PixelAovs& aov : frame.aovs) {
