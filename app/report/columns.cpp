@@ -12,10 +12,10 @@ std::string unpadded(const std::string& format, const Value& value) {
   const auto formatted = [&](const auto& of) {
     return fmt::vformat(format, fmt::make_format_args(of));
   };
-  if (value.is_null()) {
-    return format.substr(0, format.find('{')) + format.substr(format.find('}') + 1);
+  if (value.is_null() || value.is_string()) {
+    const std::string text = value.is_null() ? "" : value.get<std::string>();
+    return format.substr(0, format.find('{')) + text + format.substr(format.find('}') + 1);
   }
-  if (value.is_string()) return formatted(value.get_ref<const std::string&>());
   if (value.is_number_float()) return formatted(value.get<double>());
   if (value.is_number_unsigned()) return formatted(value.get<uint64_t>());
   return formatted(value.dump());

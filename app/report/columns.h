@@ -28,7 +28,8 @@ struct CellFormat {
   int width = 0;       // at least so many characters, aligned to the right, or if < 0 to the left
 };
 
-// The value by the format; null leaves the place of the value empty.
+// The value by the format. Null leaves the place of the value empty, and a text, such as a word in
+// a column of numbers, stands there as it is.
 std::string cell_of(const CellFormat& format, const Value& value);
 
 template <typename Row>
