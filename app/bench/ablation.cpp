@@ -36,7 +36,7 @@ Ablation measure_ablation(const gpu::Device& device, const AblationOptions& opti
                                 {.accel = Accel::tiles, .balls = true}, 10);
   const std::size_t hulls =
       add("bounds of the control points", lists, normal, normal.scene, {.accel = Accel::tiles}, 10);
-  add("the tree instead of tiles", hulls, normal, subject.with_tree, {.accel = Accel::bvh}, 10);
+  add("the tree instead of tiles", hulls, normal, normal.scene, {.accel = Accel::bvh}, 10);
   add("the height shell again", hulls, height, height.scene, {.accel = Accel::tiles}, 10);
   std::vector<Measurement> measured = comparison.measure(result.model, options.runs);
   for (std::size_t i = 0; i < measured.size(); ++i) {

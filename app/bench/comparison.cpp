@@ -46,9 +46,8 @@ Subject::Subject(const std::string& file, uint surface_choice, const ImageSize& 
       size(image_size),
       mesh(build_mesh(read_obj(file), file).mesh),
       height(view_of(model, mesh, size, {surface, 0.65, SHELL_HEIGHT})),
-      normal(view_of(model, mesh, size, {surface, 0.65, SHELL_NORMAL})),
-      with_tree(normal.scene) {
-  with_tree.bvh = build_bvh(with_tree);
+      normal(view_of(model, mesh, size, {surface, 0.65, SHELL_NORMAL})) {
+  normal.scene.bvh = build_bvh(normal.scene);
 }
 
 std::size_t wrong_pixels(const Measurement& one) {

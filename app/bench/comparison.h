@@ -40,10 +40,8 @@ struct Subject {
   uint surface;
   ImageSize size;
   Mesh mesh;
-  View height;
-  View normal;
-  // normal.scene with a tree. A copy, so that the other contenders do not upload the tree.
-  BakedScene with_tree;
+  View height;  // without a tree
+  View normal;  // with a tree
 };
 
 // The model framed as `trisect render` does. rank: of the bisection.

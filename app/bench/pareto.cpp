@@ -38,8 +38,7 @@ Scene measure_scene(const gpu::Device& device, const ParetoOptions& options,
         std::pair{"robust, list", Accel::list}}) {
     comparison.add(
         family, "", normal,
-        on_vulkan(kernels_for(device, accel == Accel::bvh ? subject.with_tree : normal.scene,
-                              {.solver = SOLVER_ROBUST, .accel = accel}),
+        on_vulkan(kernels_for(device, normal.scene, {.solver = SOLVER_ROBUST, .accel = accel}),
                   normal.params));
   }
   const TraceParams flat_params = params_of(subject.mesh, flat, subject.size, SOLVER_ROBUST, 10);

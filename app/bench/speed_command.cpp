@@ -70,8 +70,6 @@ class Race {
     scene_ = timed(bake_ms, [&] { return bake_with_subpatches(mesh_, normal); });
     double bvh_ms = bake_ms;
     scene_.bvh = timed(bvh_ms, [&] { return build_bvh(scene_); });
-    list_scene_ = scene_;
-    list_scene_.bvh.clear();
     double thesis_ms = 0.0;
     thesis_scene_ = timed(thesis_ms, [&] { return bake(mesh_, {surface, 0.65, SHELL_HEIGHT}); });
     params_ = params_of(scene_, SOLVER_ROBUST);
@@ -85,11 +83,11 @@ class Race {
                                             {.solver = SOLVER_BISECT, .accel = Accel::list}),
                          thesis_params_),
         &*thesis_check_, thesis_ms);
-    add_robust(device, "list, robust", list_scene_, Accel::list, bake_ms);
-    add_robust(device, "tiles, robust", list_scene_, Accel::tiles, bake_ms);
-    add_robust(device, "bvh, robust", scene_, Accel::bvh, bvh_ms);
+    add_robust(device, "list, robust", Accel::list, bake_ms);
+    add_robust(device, "tiles, robust", Accel::tiles, bake_ms);
+    add_robust(device, "bvh, robust", Accel::bvh, bvh_ms);
     if (device.has_ray_query()) {
-      add_robust(device, "rayquery, robust", scene_, Accel::rayquery, bvh_ms);
+      add_robust(device, "rayquery, robust", Accel::rayquery, bvh_ms);
     }
     add_embree();
   }
@@ -126,11 +124,10 @@ class Race {
     rows_.push_back({name, std::move(contender), check, build, 0, {}});
   }
 
-  void add_robust(const gpu::Device& device, const std::string& name, const BakedScene& scene,
-                  Accel accel, double build) {
+  void add_robust(const gpu::Device& device, const std::string& name, Accel accel, double build) {
     add(name,
         bench::on_vulkan(
-            bench::kernels_for(device, scene, {.solver = SOLVER_ROBUST, .accel = accel}), params_),
+            bench::kernels_for(device, scene_, {.solver = SOLVER_ROBUST, .accel = accel}), params_),
         &*check_, build);
   }
 
@@ -150,9 +147,8 @@ class Race {
 
   const BenchOptions& options_;
   Mesh mesh_;
-  BakedScene scene_;       // with a tree
-  BakedScene list_scene_;  // without
-  BakedScene thesis_scene_;
+  BakedScene scene_;         // with a tree
+  BakedScene thesis_scene_;  // without
   TraceParams params_{};
   TraceParams thesis_params_{};
   std::optional<SampleCheck> check_;
