@@ -15,14 +15,14 @@
 
 namespace trisect {
 
-// A triangle's baked numbers in double precision.
+// The baked numbers in double precision.
 struct Patch {
   std::array<glm::dvec3, 3> P;
   std::array<glm::dvec3, 3> N;
   std::array<glm::dvec3, 3> D;     // the shell's directions
   std::array<glm::dvec3, 3> data;  // curvatures and angle
   glm::dvec3 n;                    // unit face normal
-  double longest;                  // length of the longest edge
+  double longest;                  // edge
 };
 
 Patch patch_of(uint shell, const Triangle& tri);
@@ -37,6 +37,8 @@ std::array<in_double::SubTriangle, 4> quarter(const in_double::SubTriangle& sub_
 using CornerWeights = std::array<glm::dvec3, 3>;
 
 CornerWeights corner_weights(const in_double::SubTriangle& sub_triangle);
+
+using Part = CornerWeights;  // as sphere_range.h calls them
 
 inline glm::dvec3 weigh(const glm::dvec3& w, const std::array<glm::dvec3, 3>& p) {
   return p[0] * w.x + p[1] * w.y + p[2] * w.z;

@@ -202,7 +202,7 @@ Interval direction_square_range(const Patch& patch, const PartCorners& corners) 
                      : range;
 }
 
-std::optional<Interval> sphere_sigma_range(const Patch& patch, const CornerWeights& part,
+std::optional<Interval> sphere_sigma_range(const Patch& patch, const Part& part,
                                            const PartCorners& corners) {
   Interval sigma(0.0);
   for (int i = 0; i < 3; ++i) {
@@ -214,7 +214,7 @@ std::optional<Interval> sphere_sigma_range(const Patch& patch, const CornerWeigh
   return sigma;
 }
 
-bool sphere_is_smooth(const Patch& patch, const CornerWeights& part) {
+bool sphere_is_smooth(const Patch& patch, const Part& part) {
   const PartCorners corners = corners_of(patch, part);
   for (std::size_t i = 0; i < 3; ++i) {
     const HeightQuadratic q = height_quadratic(patch, i, corners);
@@ -223,7 +223,7 @@ bool sphere_is_smooth(const Patch& patch, const CornerWeights& part) {
   return true;
 }
 
-std::optional<SigmaRanges> sphere_derivative_ranges(const Patch& patch, const CornerWeights& part,
+std::optional<SigmaRanges> sphere_derivative_ranges(const Patch& patch, const Part& part,
                                                     const PartCorners& corners) {
   const auto& P = patch.P;
   const auto& D = patch.D;

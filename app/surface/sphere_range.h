@@ -13,13 +13,13 @@ namespace trisect {
 Interval direction_square_range(const Patch& patch, const PartCorners& corners);
 
 // Range of sigma, in units of D, over a part; nothing where D may vanish.
-std::optional<Interval> sphere_sigma_range(const Patch& patch, const CornerWeights& part,
+std::optional<Interval> sphere_sigma_range(const Patch& patch, const Part& part,
                                            const PartCorners& corners);
 
 // Whether sigma has no kink over a part, some of which may lie beyond the triangle's border: lines
 // do not begin to miss a sphere there, and no height comes to its limit. False does not say that it
 // has one.
-bool sphere_is_smooth(const Patch& patch, const CornerWeights& part);
+bool sphere_is_smooth(const Patch& patch, const Part& part);
 
 // Ranges of sigma and of its derivatives along u and v. Nothing where a height may be at its limit
 // or its line may miss the sphere, and at a vertex, about which the derivatives of the curvature
@@ -29,7 +29,7 @@ struct SigmaRanges {
   Interval u;
   Interval v;
 };
-std::optional<SigmaRanges> sphere_derivative_ranges(const Patch& patch, const CornerWeights& part,
+std::optional<SigmaRanges> sphere_derivative_ranges(const Patch& patch, const Part& part,
                                                     const PartCorners& corners);
 
 }  // namespace trisect

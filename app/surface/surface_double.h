@@ -24,6 +24,9 @@ using vec4 = glm::dvec4;
 #pragma GCC diagnostic ignored "-Wfloat-equal"
 #include "shaders/shape.glsl"
 namespace {
+#include "shaders/sub_triangle.glsl"
+// Control points are taken over sub-triangles.
+#include "shaders/control_net.glsl"
 // shaders/polar_angle.glsl is of single precision.
 inline double polar_angle(double sine, double cosine) {
   return std::atan2(sine, cosine);
@@ -33,10 +36,6 @@ inline double polar_angle(double sine, double cosine) {
 #include "shaders/thesis_field.glsl"
 // The march needs the fields above.
 #include "shaders/bisect.glsl"
-// Control points are taken over sub-triangles.
-#include "shaders/sub_triangle.glsl"
-// They use the functions above.
-#include "shaders/control_net.glsl"
 }  // namespace
 #pragma GCC diagnostic pop
 #undef real

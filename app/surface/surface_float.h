@@ -20,6 +20,10 @@ using namespace glm;  // NOLINT(google-build-using-namespace): GLSL's own functi
 #include "shaders/shape.glsl"
 #include "shaders/solver_types.glsl"
 namespace {
+#include "shaders/sub_triangle.glsl"
+// Control points are taken over sub-triangles.
+#include "shaders/control_net.glsl"
+// The angle needs nothing.
 #include "shaders/polar_angle.glsl"
 // Vectors need the angle.
 #include "shaders/linear.glsl"
@@ -27,10 +31,6 @@ namespace {
 #include "shaders/thesis_field.glsl"
 // The bisection needs the fields above.
 #include "shaders/bisect.glsl"
-// Control points are taken over sub-triangles.
-#include "shaders/sub_triangle.glsl"
-// They use the functions above.
-#include "shaders/control_net.glsl"
 // The bounds come before what uses them.
 #include "shaders/subpatch_bounds.glsl"
 // Then the ranges.

@@ -117,14 +117,14 @@ std::vector<OracleRoot> without_twins(std::vector<OracleRoot> roots) {
 
 TEST(Oracle, FindsTheSphereOnItsTriangles) {
   std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> reach(0.0, 1.2);
+  std::uniform_real_distribution<double> distance(0.0, 1.2);
   for (const std::string name : {"sphere-20", "sphere-80"}) {
     for (const uint shell : {SHELL_HEIGHT, SHELL_NORMAL}) {
       const Oracle oracle(bake(test::load_asset(name), {SURFACE_SPHERE, 0.0, shell}));
       for (int i = 0; i < 300; ++i) {
         const bool inside = i % 3 == 0;
-        // Inside, the middle half of the ball; outside, some rays pass by the sphere.
-        const double r = reach(random);
+        // Rays start in the middle half of the ball, or outside; some of those miss the sphere.
+        const double r = distance(random);
         const OracleRay ray = random_ray_at(random_direction(random) * (inside ? 0.5 * r : r),
                                             inside ? 0.0 : 3.0, random);
         const dvec3 nearest = ray.origin - ray.direction * glm::dot(ray.origin, ray.direction);
