@@ -21,20 +21,6 @@ struct Fit {
   real tangent_error;   // S_u and S_v are no farther from those of T + q D
 };
 
-// A linear function of the weights, by its values at the corners of a node.
-struct Corners {
-  vec3 a;
-  vec3 b;
-  vec3 c;
-};
-
-// Ranges, vec2(least, largest), of sigma and its derivatives over a node.
-struct SphereRange {
-  vec2 s;
-  vec2 u;
-  vec2 v;
-};
-
 // The mean J0 = (u, v) of a node's tangents, divided by 3, and how far the others are from it.
 struct MeanJacobian {
   vec2 u;

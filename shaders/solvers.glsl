@@ -9,6 +9,8 @@
 #include "thesis_field.glsl"
 #include "bisect.glsl"
 #include "subpatch_bounds.glsl"
+#include "range.glsl"
 #include "sphere_range.glsl"
+#include "nonsmooth_fit.glsl"
 #include "robust.glsl"
 #include "shading.glsl"

@@ -6,6 +6,7 @@
 
 #include "app/surface/control_net.h"
 #include "app/surface/sphere_range.h"
+#include "app/surface/to_double.h"
 
 namespace trisect {
 namespace {
@@ -93,7 +94,7 @@ Enclosure enclose_quotient(const Patch& patch, const CornerWeights& weights,
       around_base(corners, farthest + kRounding * std::abs(alpha) * patch.longest * 4.0);
   const Quadratic<double> lengths{glm::dot(D[0], D[0]), glm::dot(D[1], D[1]), glm::dot(D[2], D[2]),
                                   glm::dot(D[0], D[1]), glm::dot(D[1], D[2]), glm::dot(D[2], D[0])};
-  const double least = direction_square_range(patch, corners).lo;
+  const double least = direction_square_range(patch, weights, corners).lo;
   if (!(least > 0.0)) return wide;
 
   std::array<double, 3> L{};
@@ -166,6 +167,8 @@ Patch patch_of(uint shell, const Triangle& tri) {
   }
   patch.n = glm::normalize(glm::cross(patch.P[1] - patch.P[0], patch.P[2] - patch.P[0]));
   patch.longest = static_cast<double>(tri.TriNormal.w);
+  patch.triangle = to_double(tri);
+  patch.triangle.TriNormal = glm::dvec4(patch.n, patch.longest);
   return patch;
 }
 

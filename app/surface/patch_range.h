@@ -23,6 +23,7 @@ struct Patch {
   std::array<glm::dvec3, 3> data;  // curvatures and angle
   glm::dvec3 n;                    // unit face normal
   double longest;                  // edge
+  in_double::Triangle triangle;    // the same for shaders/surface.glsl, with n for face normal
 };
 
 Patch patch_of(uint shell, const Triangle& tri);

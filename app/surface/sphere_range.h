@@ -1,5 +1,9 @@
-// Ranges of the sphere surface over a part of a patch, by interval arithmetic on its closed form
-// (shaders/surface.glsl).
+// Proven ranges of the sphere surface over a part of a patch: shaders/sphere_range.glsl in double
+// precision, where every operation rounds outward, and conclusions from them.
+//
+// Each range holds every value in exact arithmetic on the baked numbers and on the directions D_i
+// as patch_of has them, for all weights in the hull of the part's. The functions have no state and
+// may be called from several threads.
 #pragma once
 
 #include <optional>
@@ -9,21 +13,21 @@
 
 namespace trisect {
 
-// Range of |D|^2 over a part.
-Interval direction_square_range(const Patch& patch, const PartCorners& corners);
+// Range of |D|^2 over a part. `corners`, here and below: corners_of(patch, part).
+Interval direction_square_range(const Patch& patch, const Part& part, const PartCorners& corners);
 
-// Range of sigma, in units of D, over a part; nothing where D may vanish.
+// Range of sigma, in units of D, over a part; nothing where D may be shorter than 1e-10.
 std::optional<Interval> sphere_sigma_range(const Patch& patch, const Part& part,
                                            const PartCorners& corners);
 
-// Whether sigma has no kink over a part, some of which may lie beyond the triangle's border: lines
-// do not begin to miss a sphere there, and no height comes to its limit. False does not say that it
-// has one.
+// Whether sigma is proven to be smooth over a part, some of which may lie beyond the triangle's
+// border: lines do not begin to miss a vertex's sphere there, and no height comes to its limit.
+// False is no proof of the contrary.
 bool sphere_is_smooth(const Patch& patch, const Part& part);
 
-// Ranges of sigma and of its derivatives along u and v. Nothing where a height may be at its limit
-// or its line may miss the sphere, and at a vertex, about which the derivatives of the curvature
-// turn.
+// Ranges of sigma and of its derivatives along u and v, in units of D. Nothing where a height may
+// be at its limit or its line may miss the sphere, and at a vertex, about which the derivatives of
+// the curvature turn.
 struct SigmaRanges {
   Interval s;
   Interval u;

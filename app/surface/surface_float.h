@@ -5,18 +5,23 @@
 #include <glm/glm.hpp>
 
 #include "app/surface/shared.h"
+#include "shaders/gamma.h"
 
 namespace trisect::in_float {
 
 using namespace glm;  // NOLINT(google-build-using-namespace): GLSL's own function names
 
 #define real float
+#define GAMMA(n) GAMMA_SINGLE(real, n)
+#define FOR_PROOF(slack) real(0.0)
 #define EXACT
 #define OUT(T) T&
 #define INOUT(T) T&
 // Plain functions in a header: each translation unit has its own, and not all of them are called.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
+// FOR_PROOF leaves parameters without a use.
+#pragma GCC diagnostic ignored "-Wunused-parameter"
 #include "shaders/shape.glsl"
 #include "shaders/solver_types.glsl"
 namespace {
@@ -31,15 +36,21 @@ namespace {
 #include "shaders/thesis_field.glsl"
 // The bisection needs the fields above.
 #include "shaders/bisect.glsl"
-// The bounds come before what uses them.
-#include "shaders/subpatch_bounds.glsl"
-// Then the ranges.
+// The ranges' own type comes before the ranges.
+#include "shaders/range.glsl"
+// The ranges of the sphere surface come before the bounds made of them.
 #include "shaders/sphere_range.glsl"
-// The solver, then.
+// The bounds by a quadratic come before those of nonsmooth subpatches.
+#include "shaders/subpatch_bounds.glsl"
+// Both kinds of bounds come before the solver.
+#include "shaders/nonsmooth_fit.glsl"
+// The solver comes last.
 #include "shaders/robust.glsl"
 }  // namespace
 #pragma GCC diagnostic pop
 #undef real
+#undef GAMMA
+#undef FOR_PROOF
 #undef EXACT
 #undef OUT
 #undef INOUT

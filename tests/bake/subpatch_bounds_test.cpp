@@ -152,7 +152,7 @@ TEST(SphereRange, HoldsSigmaAndItsChanges) {
       const auto over = in_float::sphere_node(single_shape, single, node);
       const in_float::SphereRange range = in_float::sphere_range(single_shape, single, over);
       ++nodes;
-      if (range.u.y < in_float::UNBOUNDED) ++of_known_gradient;
+      if (range.u.hi < in_float::UNBOUNDED) ++of_known_gradient;
       double lo = 1e30;
       double hi = -1e30;
       dvec3 before = dvec3(node.origin) + dvec3(double{node.size} / 3.0);
@@ -162,8 +162,8 @@ TEST(SphereRange, HoldsSigmaAndItsChanges) {
         const double sigma = in_double::displacement(shape, tri, w);
         lo = std::min(lo, sigma);
         hi = std::max(hi, sigma);
-        const Interval change = Interval(range.u.x, range.u.y) * (w.y - before.y) +
-                                Interval(range.v.x, range.v.y) * (w.z - before.z);
+        const Interval change = Interval(range.u.lo, range.u.hi) * (w.y - before.y) +
+                                Interval(range.v.lo, range.v.hi) * (w.z - before.z);
         constexpr double rounding = 1e-14;
         ASSERT_LE(change.lo, sigma - sigma_before + rounding)
             << "triangle " << bounds.triangle << " level " << level;
@@ -172,9 +172,9 @@ TEST(SphereRange, HoldsSigmaAndItsChanges) {
         before = w;
         sigma_before = sigma;
       }
-      ASSERT_LE(range.s.x, lo) << "triangle " << bounds.triangle << " level " << level;
-      ASSERT_GE(range.s.y, hi) << "triangle " << bounds.triangle << " level " << level;
-      widths += static_cast<double>(range.s.y) - range.s.x;
+      ASSERT_LE(range.s.lo, lo) << "triangle " << bounds.triangle << " level " << level;
+      ASSERT_GE(range.s.hi, hi) << "triangle " << bounds.triangle << " level " << level;
+      widths += static_cast<double>(range.s.hi) - range.s.lo;
       seen += hi - lo;
     }
   }

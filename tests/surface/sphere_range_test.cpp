@@ -1,0 +1,157 @@
+// The proven ranges of the sphere surface, held against its values in higher precision and against
+// interval arithmetic without the shaders' text.
+#include "app/surface/sphere_range.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "app/base/rounding.h"
+#include "tests/support/scenes.h"
+#include "tests/surface/surface_long_double.h"
+
+namespace trisect {
+namespace {
+
+using glm::dvec3;
+
+// A quarter of a quarter ... of the triangle, so many times divided, any of them.
+Part random_part(std::mt19937_64& random, int levels) {
+  Part part = kWholeTriangle;
+  for (int k = 0; k < levels; ++k) part = quarter(part)[random() % 4];
+  return part;
+}
+
+// A point of a part, each as likely as any other, in weights of the triangle.
+in_long_double::vec3 random_point(std::mt19937_64& random, const Part& part) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const long double a = std::sqrt(unit(random));
+  const long double b = unit(random);
+  const in_long_double::vec3 l(1.0L - a, a * b, a * (1.0L - b));
+  return in_long_double::vec3(part[0]) * l.x + in_long_double::vec3(part[1]) * l.y +
+         in_long_double::vec3(part[2]) * l.z;
+}
+
+bool holds(const Interval& range, long double x) {
+  return static_cast<long double>(range.lo) <= x && x <= static_cast<long double>(range.hi);
+}
+
+// The deeper a part, the more of its ranges' width is slack for roundings: at 44 levels a part is
+// smaller than the spacing of double-precision numbers near 1.
+TEST(SphereRanges, HoldSamplesOfRandomPatches) {
+  std::mt19937_64 random(12);
+  std::size_t with_derivatives = 0;
+  std::size_t smooth = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const uint shell = i % 2 == 0 ? SHELL_HEIGHT : SHELL_NORMAL;
+    const SurfaceChoice choice{SURFACE_SPHERE, 0.0, shell};
+    test::RandomPatch random_patch = test::random_patch(random, i % 3 == 0 ? 80.0 : 30.0);
+    // Far from the scene's origin the vertices' sizes tell the roundings, not the edges'.
+    for (dvec3& position : random_patch.positions) position += dvec3(i % 5 * 100.0);
+    const Patch patch =
+        patch_of(shell, bake_triangle(random_patch.positions, random_patch.normals, choice));
+    const in_long_double::Triangle tri = in_long_double::widened(patch.triangle);
+    const in_long_double::Shape shape{SURFACE_SPHERE, shell, 0.0L};
+    for (const int levels : {0, 1, 2, 3, 5, 8, 12, 20, 44}) {
+      const Part part = random_part(random, levels);
+      const PartCorners corners = corners_of(patch, part);
+      const auto sigma = sphere_sigma_range(patch, part, corners);
+      const auto derivatives = sphere_derivative_ranges(patch, part, corners);
+      const Interval DD = direction_square_range(patch, part, corners);
+      if (derivatives) ++with_derivatives;
+      if (sphere_is_smooth(patch, part)) ++smooth;
+      // Where derivatives are bounded sigma is smooth.
+      ASSERT_TRUE(!derivatives || sphere_is_smooth(patch, part));
+      for (int k = 0; k < 10; ++k) {
+        const in_long_double::vec3 w = random_point(random, part);
+        const auto exact = in_long_double::displacement_and_derivatives(shape, tri, w);
+        const auto D = in_long_double::shell_direction(shell, tri, w);
+        ASSERT_TRUE(holds(DD, in_long_double::dot3(D, D))) << "patch " << i << " level " << levels;
+        ASSERT_TRUE(!sigma || holds(*sigma, exact.s)) << "patch " << i << " level " << levels;
+        if (!derivatives) continue;
+        ASSERT_TRUE(holds(derivatives->s, exact.s)) << "patch " << i << " level " << levels;
+        ASSERT_TRUE(holds(derivatives->u, exact.u)) << "patch " << i << " level " << levels;
+        ASSERT_TRUE(holds(derivatives->v, exact.v)) << "patch " << i << " level " << levels;
+      }
+    }
+  }
+  EXPECT_GT(with_derivatives, 10000U);
+  EXPECT_GT(smooth, with_derivatives);
+}
+
+// s_i at a point by the quadratic formula, from intervals of one point each.
+Interval height_at(const Patch& patch, std::size_t i, const dvec3& w, const Interval& c) {
+  const dvec3 x = weigh(w, patch.P) - patch.P[i];
+  const dvec3 D = weigh(w, patch.D);
+  const Interval A = c * dot(D, D);
+  const Interval B = c * dot(x, D) + dot(D, patch.N[i]);
+  const Interval C = c * dot(x, x) + Interval(2.0) * dot(x, patch.N[i]);
+  return -divide_by_positive(C, B + root(square(B) - A * C));
+}
+
+// On a patch of a sphere all heights are the root with the sphere's curvature, which needs no
+// angle. The ranges over a point and the intervals differ by roundings only.
+TEST(SphereRanges, AgreeWithIntervalsAtAPoint) {
+  std::size_t points = 0;
+  for (const Triangle& tri : bake(test::load_asset("sphere-80"), {SURFACE_SPHERE, 0.0}).triangles) {
+    const Patch patch = patch_of(SHELL_NORMAL, tri);
+    for (const dvec3& w : test::weight_grid(5, true)) {
+      const Part part{w, w, w};
+      const auto sigma = sphere_sigma_range(patch, part, corners_of(patch, part));
+      ASSERT_TRUE(sigma);
+      Interval expected(0.0);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto [lo, hi] = std::minmax(patch.data[i].x, patch.data[i].y);
+        const Interval c(lo, hi);  // the same but for single precision's rounding
+        expected = expected + Interval(w[static_cast<int>(i)]) * height_at(patch, i, w, c);
+      }
+      ++points;
+      constexpr double most_apart = 1e-6;
+      EXPECT_LT(std::abs(sigma->lo - expected.lo), most_apart);
+      EXPECT_LT(std::abs(sigma->hi - expected.hi), most_apart);
+      EXPECT_LE(sigma->lo, expected.hi);
+      EXPECT_GE(sigma->hi, expected.lo);
+      // No wider than some hundred roundings of lengths up to 2, and what c's rounding brings.
+      EXPECT_LT(sigma->hi - sigma->lo, 1e-13 + (expected.hi - expected.lo) * 2.0);
+    }
+  }
+  EXPECT_EQ(points, 80U * 6U);
+}
+
+// With flat normals everything is 0 but for roundings, and smooth.
+TEST(SphereRanges, AreNarrowOnAFlatPatch) {
+  const Triangle tri =
+      bake_triangle({dvec3(0, 0, 0), dvec3(1, 0, 0), dvec3(0, 1, 0)},
+                    {dvec3(0, 0, 1), dvec3(0, 0, 1), dvec3(0, 0, 1)}, {SURFACE_SPHERE, 0.0});
+  const Patch patch = patch_of(SHELL_HEIGHT, tri);
+  const Part part{dvec3(0.5, 0.25, 0.25), dvec3(0.25, 0.5, 0.25), dvec3(0.25, 0.25, 0.5)};
+  const auto sigma = sphere_derivative_ranges(patch, part, corners_of(patch, part));
+  ASSERT_TRUE(sigma);
+  EXPECT_TRUE(sphere_is_smooth(patch, part));
+  for (const Interval& range : {sigma->s, sigma->u, sigma->v}) {
+    EXPECT_TRUE(holds(range, 0.0L));
+    EXPECT_LT(range.hi - range.lo, gamma_double(200));
+  }
+}
+
+TEST(Gamma, IsTheErrorOfSoManyRoundings) {
+  EXPECT_EQ(gamma_double(1), 0x1p-53 / (1.0 - 0x1p-53));
+  EXPECT_EQ(gamma_single(3), 3.0 * 0x1p-24 / (1.0 - 3.0 * 0x1p-24));
+  // A running product of 100 factors, each rounded in single precision.
+  std::mt19937_64 random(13);
+  std::uniform_real_distribution<float> factor(0.9F, 1.1F);
+  for (int i = 0; i < 1000; ++i) {
+    float rounded = factor(random);
+    double exact = rounded;
+    for (int n = 1; n <= 100; ++n) {
+      const float f = factor(random);
+      rounded *= f;
+      exact *= static_cast<double>(f);
+      ASSERT_LE(std::abs(static_cast<double>(rounded) - exact), gamma_single(n) * exact);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trisect
