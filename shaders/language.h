@@ -12,6 +12,8 @@
 #define GAMMA(n) GAMMA_SINGLE(real, n)
 // A part of a slack that only a proof needs, which is made in double precision; 0 here.
 #define FOR_PROOF(slack) real(0.0)
+// The first value in single precision, the second in double.
+#define BY_PRECISION(single_value, double_value) single_value
 // A variable whose value is rounded as written: Mesa's OpenGL compiler balances longer sums and
 // products otherwise.
 #define EXACT precise

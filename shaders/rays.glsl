@@ -59,6 +59,13 @@ PixelRay pixel_ray(uvec2 pixel) {
   return ray_through(to_near, across);
 }
 
+// Of the square of a distance between the centre and the ray: 4 roundings of a difference's square, 4 of the square of a
+// projection, of which one each is of the whole: at least gamma(8).
+const real BALL_ROUNDINGS = real(5e-7);
+// Of a place along the ray, which the solver's z, of another sum, is compared with: 8 roundings of each: at least
+// gamma(16).
+const real PLACE_ROUNDINGS = real(1e-6);
+
 // Whether the ray misses the ball, or its nearest hit, at z in its frame, lies before it. False if that is not certain.
 bool misses_ball(PixelRay ray, vec4 ball, real z) {
   vec3 center = vec3(ball) - ray.anchor;
@@ -66,9 +73,9 @@ bool misses_ball(PixelRay ray, vec4 ball, real z) {
   real size = dot3(center, center);
   // The first line compares the squared distance of the centre from the ray with the squared radius, with a margin for the
   // rounding errors of `size`.
-  return size - along * along > ball.w * ball.w + real(5e-7) * size ||
+  return size - along * along > ball.w * ball.w + BALL_ROUNDINGS * size ||
          along + ball.w < ray.frame.stretch * ray.nearest ||
-         along - ball.w > ray.frame.stretch * z + real(1e-6) * (ball.w + abs(along));
+         along - ball.w > ray.frame.stretch * z + PLACE_ROUNDINGS * (ball.w + abs(along));
 }
 
 // A ray with a frame of its own.

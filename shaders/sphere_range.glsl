@@ -17,8 +17,9 @@
 
 // Relative to the product of the factors' sizes. A dot product of computed vectors takes 3 roundings; its factors are
 // differences of vertices, 1, or the cross product of one with the face normal, whose error is 2 gamma(2) of its length and
-// the normal's 6; halving and adding two products takes 1 more, and the sizes themselves, rounded, 1.
-const real RANGE_SLACK = GAMMA(16);
+// the normal's 6; halving and adding two products takes 1 more, and the sizes themselves, rounded, 1. In single precision it
+// is at least that much; the quadratics of nodes, and with them a root's last digits, depend on it.
+const real RANGE_SLACK = BY_PRECISION(real(1e-6), GAMMA(16));
 // Stands for infinity: no length or derivative of a scene comes near.
 const real UNBOUNDED = real(1e30);
 // A direction whose square is smaller counts as this long. Callers that prove something must not ask there.

@@ -34,6 +34,11 @@ void add_linear(INOUT(Fit) fit, vec3 c, real e, vec2 gradient) {
   fit.edge += vec3(at0 + at1, at1 + at2, at0 + at2) * real(0.5);
 }
 
+// Relative to the largest of the numbers compared: a component of a control point takes 11 roundings from the framed
+// patch on, the product and the difference with a direction 3 more, and the tolerance 2, so this must be at least
+// gamma(16). Which nodes are certified depends on it, and with them a root's last digits.
+const real HULL_ROUNDINGS = real(1e-6);
+
 // Whether the surface stays on one side of the ray, farther from it than `tolerance`, seen in the plane along the
 // direction a: the control points, whose hull contains the cubic, do.
 bool separated_along(ControlNet net, vec2 a, real tolerance) {
@@ -50,7 +55,7 @@ bool separated_along(ControlNet net, vec2 a, real tolerance) {
   real low = min(min(min(min(c0, c1), min(c2, c3)), min(min(c4, c5), min(c6, c7))), min(c8, c9));
   real high = max(max(max(max(c0, c1), max(c2, c3)), max(max(c4, c5), max(c6, c7))), max(c8, c9));
   // |a x b| <= (|a.x| + |a.y|) tolerance for a b whose components are at most the tolerance; and rounding.
-  real most = tolerance * (abs(a.x) + abs(a.y)) + real(1e-6) * max(abs(low), abs(high));
+  real most = tolerance * (abs(a.x) + abs(a.y)) + HULL_ROUNDINGS * max(abs(low), abs(high));
   return low > most || high < -most;
 }
 
@@ -107,7 +112,7 @@ MeanJacobian mean_jacobian(Tangents t, real tangent_error) {
   // of J0 and |a| at most sqrt(2) times its largest component; a row has two elements. And rounding.
   EXACT real longest = longest_component(t);
   mean.contraction_bound =
-      of_net + (real(2.83) * tangent_error * longest + real(1e-6) * longest * longest) / abs(mean.area);
+      of_net + (real(2.83) * tangent_error * longest + HULL_ROUNDINGS * longest * longest) / abs(mean.area);
   return mean;
 }
 

@@ -2,8 +2,8 @@
 // it a direction D(w), the surface a displacement sigma(w) in units of D: S(w) = T(w) + sigma(w) D(w).
 //
 // Shells:
-// height: D = sum w_i N_i / (N_i.n), the thesis's. D.n = 1, so sigma is the height over the base plane. The two
-//         faces of an edge divide by different N_i.n: the curved edges part.
+// height: D = sum w_i N_i / (N_i.n), the thesis's. D.n = 1, so sigma is the height over the base plane. The two faces
+//         of an edge divide by different N_i.n, so their curved edges differ and leave gaps.
 // normal: D = sum w_i N_i. Along an edge S depends on the edge's own vertices and normals: watertight.
 //
 // Surfaces:
@@ -12,14 +12,15 @@
 //         mix by alpha). height: projected on the line T + s D. normal: sigma = sum_{i<j} s_ij w_i w_j with
 //         s_ij = alpha E_ij.(N_j - N_i), the component of Phong Tessellation's edge curve along the edge's two
 //         normals; S is a cubic Bezier triangle.
-// sphere: each vertex has a sphere through it with its normal, blended between the two edges that leave it
-//         (spherical interpolation after Gusiatin et al. 2017, 2018); sigma = sum w_i s_i, where T + s_i D
-//         meets sphere i.
+// sphere: each vertex has a sphere through it with its normal, whose curvature is interpolated between those of the
+//         two edges that leave the vertex (spherical interpolation after Gusiatin et al. 2017, 2018);
+//         sigma = sum w_i s_i, where T + s_i D meets sphere i.
 //
 // Derivatives are along u = w_1 and v = w_2 with w_0 = 1 - u - v.
 
-// Of a position's size: what a point of a patch may be off by in single precision, for its own roundings and those of the
-// patch's farthest vertex.
+// Relative to the size of a position, the farthest vertex's or the point's own: what a point of a patch may be off by in
+// single precision. The weighted sum of three vertices takes 3 roundings and the subtraction of the ray's anchor 1, so this
+// must be at least gamma(4). The solver's steps end by it: another value would end them elsewhere.
 const real ROUNDINGS = real(2.4e-7);
 
 // The distance of the farthest of a point and the patch's vertices from the scene's origin.
@@ -61,7 +62,7 @@ real edge_bulge(vec4 Pi, vec4 Pj, vec4 Ni, vec4 Nj, real alpha) {
   return alpha * dot3(vec3(Pj) - vec3(Pi), vec3(Nj) - vec3(Ni));
 }
 
-// Whether S is a cubic Bezier triangle, sigma a quadratic.
+// Whether S is a cubic Bezier triangle and sigma a quadratic.
 bool is_cubic(Shape shape) { return shape.surface == SURFACE_PHONG && shape.shell == SHELL_NORMAL; }
 
 // (s_01, s_12, s_02).
@@ -73,8 +74,9 @@ vec3 edge_bulges(Triangle tri, real alpha) {
 
 // Where the line x0 + s dir, x0 relative to the vertex, leaves the sphere c |x|^2 + 2 x.N = 0 of curvature c through
 // the vertex, or enters a hollow one, on the side to which N points: A s^2 + 2 B s + C = 0, the root with A s + B >= 0.
-// A line that misses the sphere gets the point where it passes closest to it, s = -B / A, as one does that touches it.
-// For B > 0 a plane, c = 0, is no limit case.
+// A line that misses the sphere gets the point where it passes closest to it, s = -B / A, which is continuous with the
+// point at which a line touches it. For B > 0 the quadratic formula is taken in the form -C / (B + root), in which nothing
+// cancels and which holds for a plane, c = 0, too.
 real sphere_root(vec3 x0, vec3 dir, vec3 N, real c) {
   real A = c * dot3(dir, dir);
   real B = c * dot3(x0, dir) + dot3(dir, N);
@@ -86,9 +88,9 @@ real sphere_root(vec3 x0, vec3 dir, vec3 N, real c) {
   return plane || (B > real(0.0) && discriminant > real(0.0)) ? -C / (B + root) : (root - B) / A;
 }
 
-// Where the direction from a vertex to the point T lies between its neighbours, linear in the angle: 0 toward b, 1 toward
-// a, whose weight at T is w_a. It runs on beyond the edges, lest the surface have a kink there, but not all around the
-// vertex.
+// Where the direction from a vertex to the point T lies between the vertex's neighbours, linear in the angle: 0 toward b,
+// 1 toward a, whose weight at T is w_a. It goes on beyond the edges, so that the surface is smooth there, but not all
+// around the vertex.
 const real LEAST_BLEND = real(-1.0);
 const real MOST_BLEND = real(2.0);
 real curvature_blend(vec3 T, real w_a, vec3 vertex, vec3 b, vec4 data) {
@@ -96,7 +98,8 @@ real curvature_blend(vec3 T, real w_a, vec3 vertex, vec3 b, vec4 data) {
   return clamp((w_a < real(0.0) ? -angle : angle) / data.z, LEAST_BLEND, MOST_BLEND);
 }
 
-// The curvature at a vertex in that direction, from those toward its neighbours (a the lower-numbered one).
+// The curvature at a vertex in that direction. data.x: curvature toward a, the neighbour with the lower number; data.y:
+// toward b; data.z: the angle between the two, in radians.
 real blended_curvature(real blend, vec4 data) { return data.y + blend * (data.x - data.y); }
 
 // curvature_blend at each vertex.
@@ -108,18 +111,19 @@ vec3 curvature_blends(Triangle tri, vec3 w, vec3 T) {
               curvature_blend(T, w.x, P2, P1, tri.VertexData[2]));
 }
 
-// Directions flatter on a vertex's tangent plane than this sine displace less and less toward its sphere, those beneath it
-// not at all: the definition would send them to infinity.
+// The sine of the angle between D and a vertex's tangent plane below which the displacement toward its sphere is limited
+// further, down to 0 in the plane and beneath it: the definition would send it to infinity there.
 const real FLAT_SINE = real(0.25);
 
 // The farthest that a point x0 from a vertex is displaced toward its sphere, in units of D: as far as it is from the
-// vertex. An arc of up to a half circle stays within this of its chord. Along an edge both of its faces have the same limit.
+// vertex. An arc of up to a half circle stays within this distance of its chord. Both faces of an edge have the same limit
+// along it.
 real height_limit(vec3 x0, vec3 D, vec3 N) {
   real size = length3(D);
   return length3(x0) * clamp(dot3(D, N) / (FLAT_SINE * size), real(0.0), real(1.0)) / size;
 }
 
-// s_i of the sphere surface: displacement toward the sphere of vertex i, of curvature c, in units of D.
+// s_i of the sphere surface: the displacement, in units of D, toward the sphere of vertex i, whose curvature is c.
 real sphere_height(vec3 T, vec3 D, vec3 vertex, vec3 N, real c) {
   vec3 x0 = T - vertex;
   real limit = height_limit(x0, D, N);
@@ -168,8 +172,9 @@ real phong_derivative(Triangle tri, vec3 w, vec3 dw, vec3 T, vec3 dT, vec3 D, ve
   return alpha * (dot3(dD, K) + dot3(D, dK) - real(2.0) * dot3(D, K) * dot3(D, dD) / DD) / DD;
 }
 
-// Gradient of s_i, at this blend of its curvatures. `turn` is +n or -n, the axis about which the angle from the neighbour b
-// to the point grows.
+// Gradient of s_i, where `blend` is curvature_blend there. `turn` is +n or -n, the axis about which the angle from the
+// neighbour b to the point grows. Where s_i is not differentiable it is an element of the generalised gradient (Clarke
+// 1983), the limit of gradients from one side.
 Gradient sphere_gradient(vec3 T, vec3 D, real s, vec3 vertex, vec3 N, real blend, vec4 data, vec3 turn) {
   EXACT Gradient gradient;
   vec3 x0 = T - vertex;
@@ -182,7 +187,7 @@ Gradient sphere_gradient(vec3 T, vec3 D, real s, vec3 vertex, vec3 N, real blend
     return gradient;
   }
   if (abs(s) >= height_limit(x0, D, N)) {
-    // Of the limit.
+    // s_i is the limit: differentiate height_limit.
     bool flat_on = DN < FLAT_SINE * sqrt(DD);
     gradient.along_T = x0 * (s / xx);
     gradient.along_D = D * ((flat_on ? real(-2.0) : real(-1.0)) * s / DD);
@@ -191,7 +196,7 @@ Gradient sphere_gradient(vec3 T, vec3 D, real s, vec3 vertex, vec3 N, real blend
   }
   bool turns = blend > LEAST_BLEND && blend < MOST_BLEND;
   real c = blended_curvature(blend, data);
-  // Of c.
+  // The gradient of c by T.
   vec3 dc = turns ? cross3(turn, x0) * ((data.x - data.y) / (xx * data.z)) : vec3(0.0);
   vec3 p = x0 + D * s;
   real A = c * DD;
@@ -211,7 +216,7 @@ Gradient sphere_gradient(vec3 T, vec3 D, real s, vec3 vertex, vec3 N, real blend
   return gradient;
 }
 
-// That of phong in the normal shell, from its (s_01, s_12, s_02).
+// sigma and its derivatives of phong in the normal shell, from its (s_01, s_12, s_02).
 Displacement bulged(vec3 bulge, vec3 w) {
   EXACT Displacement sigma;
   sigma.s = bulge.x * w.x * w.y + bulge.y * w.y * w.z + bulge.z * w.x * w.z;
@@ -268,7 +273,7 @@ Displacement displacement_and_derivatives(Shape shape, Triangle tri, vec3 w) {
   return sigma;
 }
 
-// The geometric normal S_u x S_v, unit length, on the side of the face normal where the shell is not folded.
+// The geometric normal S_u x S_v, of unit length. It is on the side of the face normal unless the shell folds over.
 vec3 geometric_normal(Shape shape, Triangle tri, vec3 w) {
   if (shape.surface == SURFACE_FLAT) return vec3(tri.TriNormal);
   Displacement sigma = displacement_and_derivatives(shape, tri, w);
@@ -281,9 +286,9 @@ vec3 geometric_normal(Shape shape, Triangle tri, vec3 w) {
   return normalize3(cross3(Su, Sv));
 }
 
-// Where a ray leaves the surface that starts at the point with weights w, toward a light on the side of the geometric
-// normal n: above it by more than roundings put the point below, so that the ray does not meet the surface it leaves. The
-// surface bends toward the ray where it is concave; there it is met, farther off.
+// The origin of a shadow ray from the point with weights w, toward a light on the side of the geometric normal n. It is
+// moved along n by four times what roundings may displace the point, so that the ray does not meet the surface where it
+// leaves it. Where the surface is concave the ray can still meet it farther off, as it should.
 vec3 shadow_ray_origin(Shape shape, Triangle tri, vec3 w, vec3 n) {
   EXACT vec3 point = surface_point(shape, tri, w);
   return point + n * (real(4.0) * ROUNDINGS * farthest(point, tri));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/bake/enclosing_ball.h"
+#include "app/base/rounding.h"
 #include "app/surface/shared.h"
 #include "app/surface/surface_choice.h"
 
@@ -31,9 +32,11 @@ namespace trisect {
 // enlarged by the longest edge remains, as no point is displaced farther.
 Ball bound_patch(const SurfaceChoice& choice, const Triangle& tri);
 
-// Relative to the radius plus the distance of the centre from the origin: some ten roundings to
-// single precision, those of the baked numbers and of a point on the surface. The roundings of a
-// kernel's test of a ray against the ball are not among them; the kernel has its own slack.
+// Relative to the radius plus the distance from the origin: the roundings to single precision of
+// the baked numbers and of a point on the surface, at least gamma(16). A kernel's own test of a ray
+// against the ball allows for its roundings itself. The bisection's chord is the ball's: another
+// value would let it begin elsewhere.
 constexpr double kBoundSlack = 1e-6;
+static_assert(kBoundSlack >= gamma_single(16));
 
 }  // namespace trisect

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/bake/enclosing_ball.h"
+#include "app/bake/patch_bounds.h"
 #include "app/base/max_propagating_nan.h"
 #include "app/base/parallel_rows.h"
 #include "app/base/rounding.h"
@@ -224,8 +225,10 @@ Fit fit(const PatchData& patch, const SubTriangle& sub_triangle) {
                     return in_double::displacement(patch.shape, patch.tri, w);
                   });
   const double longest_D = longest_of(patch.corners.D);
-  // Rounding of the coefficients to single precision.
+  // A coefficient is rounded to single precision, and a product with two weights rounds twice. The
+  // kernels' certificates depend on it, and with them a root's last digits.
   constexpr double rounding = 2e-7;
+  static_assert(rounding >= gamma_single(3));
   const dvec3 size = glm::max(glm::abs(fit.q.corner), glm::abs(fit.q.edge));
   const double rounded = rounding * std::max({size.x, size.y, size.z}) * longest_D;
   if (cubic) {
@@ -278,7 +281,7 @@ Ball subpatch_ball(const PatchData& patch, const SubTriangle& sub_triangle, cons
     }
   }
   Ball ball = enclosing_ball(points);
-  ball.radius += 1e-6 * (ball.radius + glm::length(ball.center));  // rounding to single precision
+  ball.radius += kBoundSlack * (ball.radius + glm::length(ball.center));
   return ball;
 }
 

@@ -7,10 +7,14 @@
 #include <glm/glm.hpp>
 #include <limits>
 
+#include "app/base/rounding.h"
+
 namespace trisect {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// The numbers from lo to hi, both included. An operation with a NaN gives an interval of no
+// meaning: whoever uses a result must compare so that a NaN proves nothing.
 struct Interval {
   double lo = 0.0;
   double hi = 0.0;
@@ -21,14 +25,15 @@ struct Interval {
   Interval(double low, double high) : lo(low), hi(high) {}
 };
 
-// One rounding to nearest moves a result by half a unit in its last place; this moves it outward by
-// two, or by the smallest number there is.
+// An interval with its ends moved outward by two units in the last place or by the smallest
+// positive number. Rounding to nearest moves a result by half a unit at most.
 inline Interval outward(double lo, double hi) {
   constexpr double ulps = 2.0 * std::numeric_limits<double>::epsilon();
   constexpr double tiny = std::numeric_limits<double>::denorm_min();
   return {lo - std::abs(lo) * ulps - tiny, hi + std::abs(hi) * ulps + tiny};
 }
 
+// The smallest interval that contains both.
 inline Interval hull(const Interval& a, const Interval& b) {
   return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
 }
@@ -66,9 +71,10 @@ inline Interval root(const Interval& a) {
   return {std::max(result.lo, 0.0), result.hi};
 }
 
-// Of two exact vectors. Five roundings, each of no more than the sum of the products' sizes.
+// Of two exact vectors: a dot product is off by gamma(3) times the sum of its products' sizes,
+// which is itself rounded, as is the subtraction here.
 inline Interval dot(const glm::dvec3& a, const glm::dvec3& b) {
-  constexpr double roundings = 5.0 * std::numeric_limits<double>::epsilon();
+  constexpr double roundings = gamma_double(10);
   constexpr double tiny = 8.0 * std::numeric_limits<double>::denorm_min();
   const double value = a.x * b.x + a.y * b.y + a.z * b.z;
   const double slack =

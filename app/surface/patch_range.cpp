@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/base/rounding.h"
 #include "app/surface/control_net.h"
 #include "app/surface/sphere_range.h"
 #include "app/surface/to_double.h"
@@ -14,8 +15,9 @@ namespace {
 using glm::dvec3;
 
 // Relative. Every figure below comes of fewer than a hundred roundings of numbers no larger than
-// the magnitude that this is multiplied with; a rounding is 1.1e-16.
-constexpr double kRounding = 1e-13;
+// the magnitude that this is multiplied with. The rest is for points of the surface evaluated in
+// double precision, whose roundings grow where sigma is steep.
+constexpr double kRounding = gamma_double(900);
 
 // Bernstein coefficients of a quadratic over a sub-triangle: at the corners, then at the edges
 // 01 12 20.

@@ -72,11 +72,17 @@ bool is_within_limit(const Patch& patch, std::size_t i, const HeightRange& h) {
   // |s| <= (|c| x + 2 |x.N| / x) x / (B + root), where x.N / x is at most the length of N along the
   // face.
   const double along = glm::length(patch.N[i] - patch.n * glm::dot(patch.N[i], patch.n));
-  const double slope =
-      (in_double::range_magnitude(h.c) * root(h.xx).hi + 2.0 * along) / (h.B.lo + h.root.lo);
+  // N and n are unit vectors, and n, a cross product, is off by 8 roundings over the sine between
+  // two edges.
+  const dvec3 E1 = patch.P[1] - patch.P[0];
+  const dvec3 E2 = patch.P[2] - patch.P[0];
+  const double sine = glm::length(glm::cross(E1, E2)) / (glm::length(E1) * glm::length(E2));
+  const double most_along = along + gamma_double(16) + gamma_double(16) / sine;
+  const Interval slope = divide_by_positive(
+      Interval(in_double::range_magnitude(h.c)) * root(h.xx) + 2.0 * most_along, h.B + h.root);
   const Interval D = root(h.DD);
-  constexpr double rounding = 1e-12;
-  return slope + rounding < std::min(h.DN.lo / (in_double::FLAT_SINE * D.hi), 1.0) / D.hi;
+  const double least_sine = std::min(divide_by_positive(h.DN, D * in_double::FLAT_SINE).lo, 1.0);
+  return slope.hi < divide_by_positive(least_sine, D).lo;
 }
 
 // Whether s_i is smooth over a part: it is the limit all over it, or nowhere, and then all of the

@@ -63,10 +63,12 @@ inline Range range_root(const Range& a) {
 #define real double
 #define GAMMA(n) GAMMA_DOUBLE(real, n)
 #define FOR_PROOF(slack) (slack)
+#define BY_PRECISION(single_value, double_value) double_value
 #define EXACT
 #define OUT(T) T&
 #define INOUT(T) T&
-// Plain functions in a header: each translation unit has its own, and not all of them are called.
+// The functions are in an anonymous namespace: each translation unit has its own and need not call
+// all of them.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wfloat-equal"
@@ -75,14 +77,14 @@ namespace {
 #include "shaders/sub_triangle.glsl"
 // Control points are taken over sub-triangles.
 #include "shaders/control_net.glsl"
-// shaders/polar_angle.glsl is of single precision.
+// The polynomial of shaders/polar_angle.glsl has the accuracy of single precision only.
 inline double polar_angle(double sine, double cosine) {
   return std::atan2(sine, cosine);
 }
 #include "shaders/linear.glsl"
 #include "shaders/surface.glsl"
 #include "shaders/thesis_field.glsl"
-// The march needs the fields above.
+// The bisection needs the fields above.
 #include "shaders/bisect.glsl"
 // The ranges need the surface.
 #include "shaders/sphere_range.glsl"
@@ -91,6 +93,7 @@ inline double polar_angle(double sine, double cosine) {
 #undef real
 #undef GAMMA
 #undef FOR_PROOF
+#undef BY_PRECISION
 #undef EXACT
 #undef OUT
 #undef INOUT

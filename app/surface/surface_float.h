@@ -14,10 +14,12 @@ using namespace glm;  // NOLINT(google-build-using-namespace): GLSL's own functi
 #define real float
 #define GAMMA(n) GAMMA_SINGLE(real, n)
 #define FOR_PROOF(slack) real(0.0)
+#define BY_PRECISION(single_value, double_value) single_value
 #define EXACT
 #define OUT(T) T&
 #define INOUT(T) T&
-// Plain functions in a header: each translation unit has its own, and not all of them are called.
+// The functions are in an anonymous namespace: each translation unit has its own and need not call
+// all of them.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 // FOR_PROOF leaves parameters without a use.
@@ -51,6 +53,7 @@ namespace {
 #undef real
 #undef GAMMA
 #undef FOR_PROOF
+#undef BY_PRECISION
 #undef EXACT
 #undef OUT
 #undef INOUT

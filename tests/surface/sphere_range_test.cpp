@@ -8,6 +8,7 @@
 #include <random>
 
 #include "app/base/rounding.h"
+#include "app/dispatch/kernel_float.h"
 #include "tests/support/scenes.h"
 #include "tests/surface/surface_long_double.h"
 
@@ -133,6 +134,21 @@ TEST(SphereRanges, AreNarrowOnAFlatPatch) {
     EXPECT_TRUE(holds(range, 0.0L));
     EXPECT_LT(range.hi - range.lo, gamma_double(200));
   }
+}
+
+// The kernels' constants that pictures depend on are fixed; they must cover what they are for.
+TEST(Gamma, IsCoveredByTheKernelsConstants) {
+  EXPECT_GE(double{in_float::ROUNDINGS}, gamma_single(4));
+  EXPECT_GE(double{in_float::WEIGHT_ROUNDINGS}, gamma_single(4));
+  EXPECT_GE(double{in_float::HULL_ROUNDINGS}, gamma_single(16));
+  EXPECT_GE(double{in_float::RANGE_SLACK}, gamma_single(16));
+  const BakedScene scene;
+  const TraceParams params{};
+  const in_float::Kernel kernel = in_float::kernel_of(scene, params, {});
+  EXPECT_GE(double{kernel.BALL_ROUNDINGS}, gamma_single(8));
+  EXPECT_GE(double{kernel.PLACE_ROUNDINGS}, gamma_single(16));
+  EXPECT_GE(double{BVH_SLACK}, gamma_single(15));
+  EXPECT_EQ(in_double::RANGE_SLACK, gamma_double(16));
 }
 
 TEST(Gamma, IsTheErrorOfSoManyRoundings) {
