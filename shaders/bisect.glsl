@@ -1,7 +1,7 @@
 // The thesis's intersection of a ray with one triangle, listing 3.4: the chord of the bounding ball is
 // halved rank - 1 times toward the surface, and its last point is a hit if the field there is small enough.
-// It faces front surfaces only, finds a root rather than the first one, and can step past one; that is the
-// baseline this project measures itself against, so none of it is repaired here.
+// It finds front faces only, some root rather than the first one, and can step past one. It is the baseline
+// that this project measures itself against, so these faults are kept.
 
 // Middle and half length of the chord that the ball of radius sr about the origin cuts from r0 + t rd;
 // (1e5, -1e5) if it cuts none.
@@ -45,7 +45,8 @@ bool bisect(Shape shape, Triangle tri, vec2 bounds, vec3 NearPos, vec3 view, int
          length3(far - cpos) > real(1e-3);
 }
 
-// A flat patch needs no march: its plane is met once. Moeller & Trumbore 1997, front faces only as above.
+// A flat patch needs no bisection, as a ray meets its plane once. The test is Moeller & Trumbore's (1997), for
+// front faces only, as above.
 bool hit_flat(Triangle tri, vec3 NearPos, vec3 view, real cdepth, OUT(real) depth,
               OUT(vec3) weights) {
   vec3 P0 = vec3(tri.Position[0]);

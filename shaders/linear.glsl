@@ -17,9 +17,10 @@ vec3 facing(vec3 normal, vec3 view) { return dot3(normal, view) > real(0.0) ? -n
 // The point with barycentric weights w among a, b, c.
 vec3 weigh(vec3 w, vec3 a, vec3 b, vec3 c) { return a * w.x + b * w.y + c * w.z; }
 
-// Angle between a and b, 0 to pi. Where the thesis has acos of a dot product, which loses half the digits
-// near 0, this is Kahan's form.
-// A vector of length 0 is at angle 0 to all: atan(0, 0) is undefined in GLSL.
+// Angle between a and b, from 0 to pi. The thesis takes acos of a dot product, which loses half the digits near 0. The
+// arc tangent of |a x b| / a.b does not (Kahan 2006, "How futile are mindless assessments of roundoff in floating-point
+// computation?", on the angle between vectors). A vector of length 0 has angle 0 with all: atan(0, 0) is
+// undefined in GLSL.
 real AngleBetween(vec3 a, vec3 b) {
   real sine = length3(cross3(a, b));
   real cosine = dot3(a, b);

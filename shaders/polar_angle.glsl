@@ -1,6 +1,6 @@
-// Angle of the point (cosine, sine), sine >= 0, in single precision: a built-in atan rounds differently in every
-// compiler, by up to 4096 units in the last place as Vulkan has it. The polynomial is a minimax fit of
-// (atan(x) / x - 1) / x^2 for 0 <= x <= tan(pi / 8), off by 2e-8 of the angle.
+// Angle in radians, from 0 to pi, of the point (cosine, sine) with sine >= 0, in single precision. The built-in atan rounds
+// differently in every compiler; Vulkan allows it 4096 units in the last place. The polynomial is a minimax fit of
+// (atan(x) / x - 1) / x^2 for 0 <= x <= tan(pi / 8), with an error of 2e-8 relative to the angle.
 real polar_angle(real sine, real cosine) {
   real across = abs(cosine);
   real smaller = min(sine, across);

@@ -1,7 +1,7 @@
 // The thesis's fields, listings 3.5 (phong) and 3.6 (sphere): at a point of space, the weights of the base
-// triangle's offset copy through that point and the signed distance to the surface along the shell
-// direction, positive outside. The functions keep the listings' names. Deviations, none of which moves the
-// zero set of a well-formed patch:
+// triangle's offset copy through that point (xyz) and the signed distance to the surface along the shell
+// direction (w), positive outside. The functions keep the listings' names. They deviate from the listings in
+// three ways, none of which moves the zero set of a well-formed patch:
 //  - the listings' direction normalize(triPos - pos) * sign(height) is 0/0 on the base triangle; its
 //    limit is used there;
 //  - listing 3.6 works with radii 1/c, the curvature c clamped away from 0, which in single precision
@@ -86,8 +86,8 @@ vec4 SphereField(Triangle tri, vec3 pos) {
   return vec4(weights, dot3(dist, weights));
 }
 
-// The same question in the normal shell, which the thesis does not have: the copy of the base triangle whose
-// plane holds pos, P_i + s N_i, is found by Newton's method, since s is the root of a cubic.
+// The field in the normal shell, which the thesis does not have. The offset copy of the base triangle,
+// P_i + s N_i, has pos in its plane where a cubic in s vanishes; Newton's method finds s from 0 on.
 vec4 NormalShellField(Shape shape, Triangle tri, vec3 pos) {
   vec3 P0 = vec3(tri.Position[0]) - pos;
   vec3 P1 = vec3(tri.Position[1]) - pos;

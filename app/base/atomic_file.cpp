@@ -31,7 +31,8 @@ AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target) {
   const int file = mkstemp(name.data());
   if (file < 0) fail(std::generic_category().message(errno));
   temporary_ = name;
-  // mkstemp makes it private; it shall have what an ordinary new file has.
+  // mkstemp lets only the owner read the file. Give it the permissions of the file it replaces, or
+  // those of any new file.
   const mode_t mask = umask(0);
   umask(mask);
   const mode_t mode = std::filesystem::exists(status)

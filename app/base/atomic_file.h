@@ -6,10 +6,11 @@
 
 namespace trisect {
 
-// Reserves a temporary file beside `target` at once, so that a target that cannot be written is
-// found out before the work and not after it; commit() moves it into place. Without commit() the
-// destructor removes it. A target that is a symbolic link stays one, a file that is replaced keeps
-// its permissions.
+// Creates a temporary file beside `target` at once, so that a target that cannot be written is
+// noticed before the work and not after it; commit() moves it into place. Without commit() the
+// destructor removes it. A target that is a symbolic link stays one: the file it leads to is
+// replaced. A file that is replaced keeps its permissions. Not for use from several threads: the
+// constructor reads the process's umask by setting it for a moment.
 class AtomicFile {
  public:
   // Throws InputError, naming the target, if no file can be made there or if it is something other
@@ -23,10 +24,10 @@ class AtomicFile {
 
   [[nodiscard]] const std::filesystem::path& target() const { return target_; }
 
-  // Where to write.
+  // The file to write to, until commit().
   [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
 
-  // Writes text as the whole content.
+  // Writes `text` as the whole content. Throws InputError if that fails.
   void write(std::string_view text) const;
 
   // Throws InputError if the file cannot be moved.

@@ -60,7 +60,7 @@ bool parallel_rows(uint32_t height, const std::function<void(uint32_t)>& row,
   }
   threads.clear();
   if (error) std::rethrow_exception(error);
-  // A row that was begun when the caller said stop may have been the last.
+  // All rows may be done although progress said stop, if the last one had begun by then.
   if (done < height) return false;
   return !stopped && (!progress || progress(height));
 }

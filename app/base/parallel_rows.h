@@ -1,4 +1,4 @@
-// Rows of an image, or chunks of a list, over all cores.
+// Work on the rows of an image, or on chunks of a list, spread over all cores.
 #pragma once
 
 #include <cstddef>
@@ -9,19 +9,21 @@
 
 namespace trisect {
 
-// Calls row(y) once for every y below `height`, on as many threads as there are cores, and
-// progress(rows done), if set, a few times a second and at the end on the calling thread. Returns
-// whether every row was done: not if progress said stop. What row or progress throws stops the rest
-// and is thrown here.
+// Calls row(y) once for every y below `height`, on as many threads as there are cores: `row` must
+// be safe to call from several threads at once. Calls progress(rows done), if set, on the calling
+// thread about five times a second and at the end; where it returns false the rows that have not
+// begun are left out. Returns true if every row was done and progress never returned false. The
+// first exception that row or progress throws ends the work too and is rethrown here.
 bool parallel_rows(uint32_t height, const std::function<void(uint32_t)>& row,
                    const Progress& progress);
 
 // Calls chunk(first, end) for consecutive ranges of `size` items of `count`, the last one shorter,
-// on as many threads as there are cores. What it throws stops the rest and is thrown here.
+// on as many threads as there are cores: `chunk` must be safe to call from several threads at once.
+// The first exception that it throws ends the work and is rethrown here.
 void parallel_chunks(std::size_t count, std::size_t size,
                      const std::function<void(std::size_t, std::size_t)>& chunk);
 
-// Of items that take some microseconds each.
+// A size of chunks for items that take some microseconds each.
 constexpr std::size_t kChunk = 1024;
 
 }  // namespace trisect

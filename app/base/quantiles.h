@@ -1,4 +1,4 @@
-// What a sample of errors is summed up in.
+// Quantiles of measured errors, and the units that errors are measured in.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -6,7 +6,8 @@
 
 namespace trisect {
 
-// Of a sample: the middle one, the one that 1% exceed, the largest. 0 for an empty sample.
+// Quantiles of a sample: the median, the value that 1% exceed, the largest. All are 0 for an empty
+// sample.
 struct Quantiles {
   double p50 = 0.0;
   double p99 = 0.0;
@@ -15,10 +16,11 @@ struct Quantiles {
 
 Quantiles quantiles_of(std::vector<double> values);
 
-// Distance from |x| to the next larger single.
+// The distance from |x| to the next larger number in single precision.
 double ulp_of(float x);
 
-// Angle between two vectors, accurate for small ones too.
+// The angle between two vectors in degrees, from 0 to 180; small angles are as accurate as large
+// ones.
 double degrees_between(const glm::dvec3& a, const glm::dvec3& b);
 
 }  // namespace trisect

@@ -1,11 +1,11 @@
-// Time by the host's clock.
+// Elapsed time by the host's monotonic clock.
 #pragma once
 
 #include <chrono>
 
 namespace trisect {
 
-// Runs from its making.
+// Measures from its construction on.
 class Stopwatch {
  public:
   [[nodiscard]] double milliseconds() const {

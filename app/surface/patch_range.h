@@ -1,6 +1,7 @@
 // Where the surface over a sub-triangle of a patch can lie: proven enclosures in double precision,
 // from which the bounds of patches (patch_bounds.h) and the reference search (patch_search.h) are
 // made.
+// The functions have no state and may be called from several threads.
 #pragma once
 
 #include <algorithm>
@@ -15,14 +16,14 @@
 
 namespace trisect {
 
-// The baked numbers in double precision.
+// The baked numbers of a triangle in double precision.
 struct Patch {
-  std::array<glm::dvec3, 3> P;
-  std::array<glm::dvec3, 3> N;
-  std::array<glm::dvec3, 3> D;     // the shell's directions
-  std::array<glm::dvec3, 3> data;  // curvatures and angle
+  std::array<glm::dvec3, 3> P;     // vertices
+  std::array<glm::dvec3, 3> N;     // unit normals there
+  std::array<glm::dvec3, 3> D;     // the shell's directions there
+  std::array<glm::dvec3, 3> data;  // curvatures toward the neighbours, and the angle between those
   glm::dvec3 n;                    // unit face normal
-  double longest;                  // edge
+  double longest;                  // length of the longest edge
   in_double::Triangle triangle;    // the same for shaders/surface.glsl, with n for face normal
 };
 
@@ -58,8 +59,9 @@ struct PartCorners {
 
 PartCorners corners_of(const Patch& patch, const CornerWeights& weights);
 
-// What contains S over a sub-triangle: the hull of the points, plus sigma in `sigma` times the hull
-// of D, plus a ball of this radius (infinite where nothing is known).
+// A set that contains S over a sub-triangle: the sum of the convex hull of the first `count` points, of the
+// hull of D times the numbers in `sigma`, and of a ball of this radius, which is infinite where
+// nothing is known.
 struct Enclosure {
   std::array<glm::dvec3, 10> points;
   std::size_t count;
@@ -68,13 +70,13 @@ struct Enclosure {
   double radius;
 };
 
-// Proven for any finite normals and alpha, roundings included, also those of a point evaluated in
-// double precision.
+// Contains the surface for any finite normals and alpha, roundings included, also those of a point
+// that is evaluated in double precision.
 //
 // flat:   the corners.
 // phong, normal shell: sigma is a quadratic in w, S a cubic: its ten control points over the
-// sub-triangle. phong, height shell: sigma = alpha D.K / |D|^2 with K quadratic in w. With L the
-// linear function
+//         sub-triangle.
+// phong, height shell: sigma = alpha D.K / |D|^2 with K quadratic in w. With L the linear function
 //         that agrees with sigma at the corners, T + L D is quadratic, six control points, and
 //         sigma - L = (alpha D.K - L |D|^2) / |D|^2 lies between the quotients of the extreme
 //         Bernstein coefficients: a band whose width falls with the square of the sub-triangle's

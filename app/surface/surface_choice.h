@@ -1,11 +1,11 @@
-// What a surface is made of.
+// Which of the surfaces of shaders/surface.glsl a scene has.
 #pragma once
 
 #include "app/surface/shared.h"
 
 namespace trisect {
 
-// As the command line and the JSON name them.
+// The names in the command line and in JSON.
 constexpr const char* surface_name(uint surface) {
   return surface == SURFACE_FLAT ? "flat" : surface == SURFACE_PHONG ? "phong" : "sphere";
 }

@@ -9,7 +9,7 @@ namespace trisect {
 
 in_double::Shape shape_of(const SurfaceChoice& choice);
 
-// Exact: no number changes.
+// Every number is kept exactly.
 in_double::Triangle to_double(const Triangle& tri);
 
 }  // namespace trisect

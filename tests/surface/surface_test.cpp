@@ -14,8 +14,8 @@ namespace {
 using glm::dvec3;
 using glm::dvec4;
 
-// Undoes the bake's rounding of what follows from the rounded positions and normals, so that
-// identities hold to double precision.
+// Computes again in double precision what the bake derives from the rounded positions and normals,
+// so that identities hold to double precision.
 in_double::Triangle exact(const Triangle& single) {
   in_double::Triangle tri = to_double(single);
   const dvec3 P0(tri.Position[0]);
@@ -250,8 +250,8 @@ TEST(Surface, FlatNormalsGiveTheFlatTriangle) {
   }
 }
 
-// Within the triangle, on its edges, where a kink would have a mean of two sides for difference,
-// and as far beyond them as neighbouring patches overlap.
+// Weights within the triangle, on its edges, where the difference across a nonsmooth edge would be
+// a mean of both sides, and beyond them by the overlap of neighbouring patches.
 std::vector<dvec3> weights_about_the_triangle() {
   std::vector<dvec3> weights = test::weight_grid(5, true);
   for (int edge = 0; edge < 3; ++edge) {
