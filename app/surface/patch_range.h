@@ -40,8 +40,6 @@ using CornerWeights = std::array<glm::dvec3, 3>;
 
 CornerWeights corner_weights(const in_double::SubTriangle& sub_triangle);
 
-using Part = CornerWeights;  // as sphere_range.h calls them
-
 inline glm::dvec3 weigh(const glm::dvec3& w, const std::array<glm::dvec3, 3>& p) {
   return p[0] * w.x + p[1] * w.y + p[2] * w.z;
 }
@@ -59,9 +57,9 @@ struct PartCorners {
 
 PartCorners corners_of(const Patch& patch, const CornerWeights& weights);
 
-// A set that contains S over a sub-triangle: the sum of the convex hull of the first `count` points, of the
-// hull of D times the numbers in `sigma`, and of a ball of this radius, which is infinite where
-// nothing is known.
+// A set that contains S over a sub-triangle: the sum of the convex hull of the first `count`
+// points, of the hull of D times the numbers in `sigma`, and of a ball of this radius, which is
+// infinite where nothing is known.
 struct Enclosure {
   std::array<glm::dvec3, 10> points;
   std::size_t count;

@@ -12,44 +12,45 @@ namespace {
 using glm::dvec3;
 using in_double::HeightRange;
 
-// The corners of a part, with the rounding of their weighted sums: three of it, on the way of each
-// vertex or direction into a corner, and one more where another vertex is subtracted.
-in_double::Corners corners_with_error(const Part& part, const std::array<dvec3, 3>& vectors,
+// The corners of a sub-triangle, with the rounding of their weighted sums: three of it, on the way
+// of each vertex or direction into a corner, and one more where another vertex is subtracted.
+in_double::Corners corners_with_error(const CornerWeights& weights,
+                                      const std::array<dvec3, 3>& vectors,
                                       const std::array<dvec3, 3>& at_corners) {
-  double weights = 0.0;
-  for (const dvec3& w : part) {
-    weights = std::max(weights, std::abs(w.x) + std::abs(w.y) + std::abs(w.z));
+  double sum = 0.0;
+  for (const dvec3& w : weights) {
+    sum = std::max(sum, std::abs(w.x) + std::abs(w.y) + std::abs(w.z));
   }
-  return {at_corners[0], at_corners[1], at_corners[2],
-          gamma_double(4) * weights * longest_of(vectors)};
+  return {at_corners[0], at_corners[1], at_corners[2], gamma_double(4) * sum * longest_of(vectors)};
 }
 
-// What the ranges of sigma over a part are made from.
-struct SphereOverPart {
+// What the ranges of sigma over a sub-triangle are made from.
+struct SphereOverSubTriangle {
   in_double::Corners T;
   in_double::Corners D;
   Interval DD;
   std::array<Interval, 3> w;
 };
 
-SphereOverPart sphere_over(const Patch& patch, const Part& part, const PartCorners& corners) {
-  SphereOverPart over{};
-  over.T = corners_with_error(part, patch.P, corners.T);
-  over.D = corners_with_error(part, patch.D, corners.D);
+SphereOverSubTriangle sphere_over(const Patch& patch, const CornerWeights& weights,
+                                  const PartCorners& corners) {
+  SphereOverSubTriangle over{};
+  over.T = corners_with_error(weights, patch.P, corners.T);
+  over.D = corners_with_error(weights, patch.D, corners.D);
   over.DD = in_double::square_range(over.D, patch.n);
   for (int i = 0; i < 3; ++i) {
-    const auto [lo, hi] = std::minmax({part[0][i], part[1][i], part[2][i]});
+    const auto [lo, hi] = std::minmax({weights[0][i], weights[1][i], weights[2][i]});
     over.w[static_cast<std::size_t>(i)] = {lo, hi};
   }
   return over;
 }
 
-HeightRange height_range(const Patch& patch, std::size_t i, const SphereOverPart& over) {
+HeightRange height_range(const Patch& patch, std::size_t i, const SphereOverSubTriangle& over) {
   return in_double::height_range(patch.triangle, static_cast<int>(i), over.T, over.D, over.DD);
 }
 
 // Whether the directions do not vanish. Written so that a NaN is no direction.
-bool has_directions(const SphereOverPart& over) {
+bool has_directions(const SphereOverSubTriangle& over) {
   return over.DD.lo > in_double::LEAST_DIRECTION_SQUARE;
 }
 
@@ -58,13 +59,13 @@ bool has_root(const HeightRange& h) {
   return in_double::range_magnitude(h.s) < in_double::UNBOUNDED;
 }
 
-// Whether the limit is a smooth function of D over a part.
+// Whether the limit is a smooth function of D over a sub-triangle.
 bool limit_is_smooth(const HeightRange& h) {
   const Interval flat = root(h.DD) * in_double::FLAT_SINE;
   return h.DN.hi < 0.0 || h.DN.lo > flat.hi || (h.DN.lo > 0.0 && h.DN.hi < flat.lo);
 }
 
-// Whether the root stays within its limit all over a part.
+// Whether the root stays within its limit all over a sub-triangle.
 bool is_within_limit(const Patch& patch, std::size_t i, const HeightRange& h) {
   if (h.s.hi < h.limit.lo && h.s.lo > -h.limit.lo) return true;
   if (!(h.B.lo > 0.0) || !(h.discriminant.lo > 0.0)) return false;
@@ -85,8 +86,8 @@ bool is_within_limit(const Patch& patch, std::size_t i, const HeightRange& h) {
   return slope.hi < divide_by_positive(least_sine, D).lo;
 }
 
-// Whether s_i is smooth over a part: it is the limit all over it, or nowhere, and then all of the
-// lines meet the sphere or none.
+// Whether s_i is smooth over a sub-triangle: it is the limit all over it, or nowhere, and then all
+// of the lines meet the sphere or none.
 bool is_smooth(const Patch& patch, std::size_t i, const HeightRange& h) {
   if (h.DN.hi < 0.0) return true;
   if (!has_root(h)) return false;
@@ -94,7 +95,7 @@ bool is_smooth(const Patch& patch, std::size_t i, const HeightRange& h) {
   return (h.discriminant.lo > 0.0 || h.discriminant.hi < 0.0) && is_within_limit(patch, i, h);
 }
 
-// Whether s_i is the root all over a part and has bounded derivatives there.
+// Whether s_i is the root all over a sub-triangle and has bounded derivatives there.
 bool is_root_with_derivatives(const Patch& patch, std::size_t i, const HeightRange& h) {
   return has_root(h) && h.xx.lo > 0.0 && patch.data[i].z > 0.0 && h.discriminant.lo > 0.0 &&
          h.s.hi < h.limit.lo && h.s.lo > -h.limit.lo;
@@ -102,13 +103,14 @@ bool is_root_with_derivatives(const Patch& patch, std::size_t i, const HeightRan
 
 }  // namespace
 
-Interval direction_square_range(const Patch& patch, const Part& part, const PartCorners& corners) {
-  return in_double::square_range(corners_with_error(part, patch.D, corners.D), patch.n);
+Interval direction_square_range(const Patch& patch, const CornerWeights& weights,
+                                const PartCorners& corners) {
+  return in_double::square_range(corners_with_error(weights, patch.D, corners.D), patch.n);
 }
 
-std::optional<Interval> sphere_sigma_range(const Patch& patch, const Part& part,
+std::optional<Interval> sphere_sigma_range(const Patch& patch, const CornerWeights& weights,
                                            const PartCorners& corners) {
-  const SphereOverPart over = sphere_over(patch, part, corners);
+  const SphereOverSubTriangle over = sphere_over(patch, weights, corners);
   if (!has_directions(over)) return std::nullopt;
   Interval sigma(0.0);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -117,8 +119,8 @@ std::optional<Interval> sphere_sigma_range(const Patch& patch, const Part& part,
   return sigma;
 }
 
-bool sphere_is_smooth(const Patch& patch, const Part& part) {
-  const SphereOverPart over = sphere_over(patch, part, corners_of(patch, part));
+bool sphere_is_smooth(const Patch& patch, const CornerWeights& weights) {
+  const SphereOverSubTriangle over = sphere_over(patch, weights, corners_of(patch, weights));
   if (!has_directions(over)) return false;
   for (std::size_t i = 0; i < 3; ++i) {
     if (!is_smooth(patch, i, height_range(patch, i, over))) return false;
@@ -126,9 +128,10 @@ bool sphere_is_smooth(const Patch& patch, const Part& part) {
   return true;
 }
 
-std::optional<SigmaRanges> sphere_derivative_ranges(const Patch& patch, const Part& part,
+std::optional<SigmaRanges> sphere_derivative_ranges(const Patch& patch,
+                                                    const CornerWeights& weights,
                                                     const PartCorners& corners) {
-  const SphereOverPart over = sphere_over(patch, part, corners);
+  const SphereOverSubTriangle over = sphere_over(patch, weights, corners);
   if (!has_directions(over)) return std::nullopt;
   const auto& P = patch.P;
   const auto& D = patch.D;

@@ -18,28 +18,28 @@ namespace {
 using glm::dvec3;
 
 // A quarter of a quarter ... of the triangle, so many times divided, any of them.
-Part random_part(std::mt19937_64& random, int levels) {
-  Part part = kWholeTriangle;
-  for (int k = 0; k < levels; ++k) part = quarter(part)[random() % 4];
-  return part;
+CornerWeights random_sub_triangle(std::mt19937_64& random, int levels) {
+  in_double::SubTriangle sub_triangle = kWholeTriangle;
+  for (int k = 0; k < levels; ++k) sub_triangle = quarter(sub_triangle)[random() % 4];
+  return corner_weights(sub_triangle);
 }
 
-// A point of a part, each as likely as any other, in weights of the triangle.
-in_long_double::vec3 random_point(std::mt19937_64& random, const Part& part) {
+// A point of a sub-triangle, each as likely as any other, in weights of the triangle.
+in_long_double::vec3 random_point(std::mt19937_64& random, const CornerWeights& weights) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   const long double a = std::sqrt(unit(random));
   const long double b = unit(random);
   const in_long_double::vec3 l(1.0L - a, a * b, a * (1.0L - b));
-  return in_long_double::vec3(part[0]) * l.x + in_long_double::vec3(part[1]) * l.y +
-         in_long_double::vec3(part[2]) * l.z;
+  return in_long_double::vec3(weights[0]) * l.x + in_long_double::vec3(weights[1]) * l.y +
+         in_long_double::vec3(weights[2]) * l.z;
 }
 
 bool holds(const Interval& range, long double x) {
   return static_cast<long double>(range.lo) <= x && x <= static_cast<long double>(range.hi);
 }
 
-// The deeper a part, the more of its ranges' width is slack for roundings: at 44 levels a part is
-// smaller than the spacing of double-precision numbers near 1.
+// The deeper a sub-triangle, the more of its ranges' width is slack for roundings: at 44 levels a
+// sub-triangle is smaller than the spacing of double-precision numbers near 1.
 TEST(SphereRanges, HoldSamplesOfRandomPatches) {
   std::mt19937_64 random(12);
   std::size_t with_derivatives = 0;
@@ -55,17 +55,17 @@ TEST(SphereRanges, HoldSamplesOfRandomPatches) {
     const in_long_double::Triangle tri = in_long_double::widened(patch.triangle);
     const in_long_double::Shape shape{SURFACE_SPHERE, shell, 0.0L};
     for (const int levels : {0, 1, 2, 3, 5, 8, 12, 20, 44}) {
-      const Part part = random_part(random, levels);
-      const PartCorners corners = corners_of(patch, part);
-      const auto sigma = sphere_sigma_range(patch, part, corners);
-      const auto derivatives = sphere_derivative_ranges(patch, part, corners);
-      const Interval DD = direction_square_range(patch, part, corners);
+      const CornerWeights weights = random_sub_triangle(random, levels);
+      const PartCorners corners = corners_of(patch, weights);
+      const auto sigma = sphere_sigma_range(patch, weights, corners);
+      const auto derivatives = sphere_derivative_ranges(patch, weights, corners);
+      const Interval DD = direction_square_range(patch, weights, corners);
       if (derivatives) ++with_derivatives;
-      if (sphere_is_smooth(patch, part)) ++smooth;
+      if (sphere_is_smooth(patch, weights)) ++smooth;
       // Where derivatives are bounded sigma is smooth.
-      ASSERT_TRUE(!derivatives || sphere_is_smooth(patch, part));
+      ASSERT_TRUE(!derivatives || sphere_is_smooth(patch, weights));
       for (int k = 0; k < 10; ++k) {
-        const in_long_double::vec3 w = random_point(random, part);
+        const in_long_double::vec3 w = random_point(random, weights);
         const auto exact = in_long_double::displacement_and_derivatives(shape, tri, w);
         const auto D = in_long_double::shell_direction(shell, tri, w);
         ASSERT_TRUE(holds(DD, in_long_double::dot3(D, D))) << "patch " << i << " level " << levels;
@@ -98,8 +98,8 @@ TEST(SphereRanges, AgreeWithIntervalsAtAPoint) {
   for (const Triangle& tri : bake(test::load_asset("sphere-80"), {SURFACE_SPHERE, 0.0}).triangles) {
     const Patch patch = patch_of(SHELL_NORMAL, tri);
     for (const dvec3& w : test::weight_grid(5, true)) {
-      const Part part{w, w, w};
-      const auto sigma = sphere_sigma_range(patch, part, corners_of(patch, part));
+      const CornerWeights weights{w, w, w};
+      const auto sigma = sphere_sigma_range(patch, weights, corners_of(patch, weights));
       ASSERT_TRUE(sigma);
       Interval expected(0.0);
       for (std::size_t i = 0; i < 3; ++i) {
@@ -126,10 +126,11 @@ TEST(SphereRanges, AreNarrowOnAFlatPatch) {
       bake_triangle({dvec3(0, 0, 0), dvec3(1, 0, 0), dvec3(0, 1, 0)},
                     {dvec3(0, 0, 1), dvec3(0, 0, 1), dvec3(0, 0, 1)}, {SURFACE_SPHERE, 0.0});
   const Patch patch = patch_of(SHELL_HEIGHT, tri);
-  const Part part{dvec3(0.5, 0.25, 0.25), dvec3(0.25, 0.5, 0.25), dvec3(0.25, 0.25, 0.5)};
-  const auto sigma = sphere_derivative_ranges(patch, part, corners_of(patch, part));
+  const CornerWeights weights{dvec3(0.5, 0.25, 0.25), dvec3(0.25, 0.5, 0.25),
+                              dvec3(0.25, 0.25, 0.5)};
+  const auto sigma = sphere_derivative_ranges(patch, weights, corners_of(patch, weights));
   ASSERT_TRUE(sigma);
-  EXPECT_TRUE(sphere_is_smooth(patch, part));
+  EXPECT_TRUE(sphere_is_smooth(patch, weights));
   for (const Interval& range : {sigma->s, sigma->u, sigma->v}) {
     EXPECT_TRUE(holds(range, 0.0L));
     EXPECT_LT(range.hi - range.lo, gamma_double(200));
