@@ -103,8 +103,9 @@ bool Swapchain::renew(uint32_t width, uint32_t height) {
   VkSwapchainCreateInfoKHR info{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
   info.surface = surface_;
   info.minImageCount = std::max(capabilities.minImageCount, uint32_t{2});
-  if (capabilities.maxImageCount > 0)
+  if (capabilities.maxImageCount > 0) {
     info.minImageCount = std::min(info.minImageCount, capabilities.maxImageCount);
+  }
   info.imageFormat = format_.format;
   info.imageColorSpace = format_.colorSpace;
   info.imageExtent = extent;

@@ -42,8 +42,9 @@ uint32_t band_rows(GlPath path, std::size_t limit, uint32_t width, uint32_t heig
 
 Program program_for(const BakedScene& scene, const KernelChoice& choice, GlPath path) {
   const std::string head = shader_head(scene, choice, false);
-  if (path == GlPath::compute)
+  if (path == GlPath::compute) {
     return make_program(head, {{GL_COMPUTE_SHADER, glsl_of("trace_list.comp")}});
+  }
   return make_program(head, {{GL_VERTEX_SHADER, glsl_of("full_screen.vert")},
                              {GL_FRAGMENT_SHADER, glsl_of("trace_list.frag")}});
 }

@@ -23,10 +23,12 @@ class HardCases : public test::GpuTest {};
 
 TEST_F(HardCases, NamesAreDistinct) {
   std::set<std::string> names;
-  for (const RayCase& ray_case : stress_ray_catalogue())
+  for (const RayCase& ray_case : stress_ray_catalogue()) {
     EXPECT_TRUE(names.insert(ray_case.name).second);
-  for (const CheckedCase& checked_case : stress_checked_cases())
+  }
+  for (const CheckedCase& checked_case : stress_checked_cases()) {
     EXPECT_TRUE(names.insert(checked_case.name).second);
+  }
   EXPECT_GE(names.size(), 42U);
 }
 
