@@ -32,7 +32,7 @@ Value decided_error(const StabilityRow& row) {
 
 // The same for a reader of the table.
 Value error_or_undecided(const StabilityRow& row) {
-  return row.point.decided > 0 ? Value(fmt::format("{:.1e}", row.point.error)) : Value("undecided");
+  return row.point.decided > 0 ? Value(row.point.error) : Value("undecided");
 }
 
 // A column stands twice where the outputs have it in different places or show different values.
@@ -43,7 +43,7 @@ const Columns<StabilityRow>& stability_columns() {
       {{"solver", "\"{}\""}, "", {}, [](auto& r) { return r.curve.solver; }},
       {{"value", "{:g}"}, "value", {"value", "{:g}"}, [](auto& r) { return r.point.value; }},
       {{"error", "{:.4e}"}, "", {}, [](auto& r) { return r.point.error; }},
-      {{}, "", {"error", "{}"}, error_or_undecided},
+      {{}, "", {"error", "{:.1e}"}, error_or_undecided},
       {{"decided", "{}"}, "decided", {}, [](auto& r) { return r.point.decided; }},
       {{"wrong", "{}"}, "wrong", {"wrong", "{}"}, [](auto& r) { return r.point.wrong; }},
       {{"missed", "{}"}, "missed", {"missed", "{}"}, [](auto& r) { return r.point.missed; }},

@@ -101,7 +101,8 @@ TEST(HardcasesReport, IsExactInJson) {
       hardcases_columns().json(needle()).dump(),
       compact(
           R"({"case":"needle", "what":"a patch as thin as a needle", "kind":"shape", "surface":"phong",
-    "shell":"normal", "solver":"robust", "rank":12, "rays":120, "undecidable":1, "wrong":2,
+    "shell":"normal", "solver":"robust", "rank":12, "rays":120, "undecidable":1,
+    "most_undecidable":0.1, "wrong":2,
     "missed":3, "depth_error_ulp_p50":0.16777216, "depth_error_ulp_p99":2899.1029248,
     "depth_error_ulp_max":2899.1029248, "nans":4, "evaluations_per_ray":8.333333333333334,
     "verdict":"FAIL", "note":""})"));
@@ -109,7 +110,8 @@ TEST(HardcasesReport, IsExactInJson) {
       hardcases_columns().json(files()).dump(),
       compact(
           R"({"case":"a-name-of-more-than-its-column", "what":"files", "kind":"data", "surface":"flat",
-    "shell":"height", "solver":"bisect", "rank":10, "rays":0, "undecidable":0, "wrong":0,
+    "shell":"height", "solver":"bisect", "rank":10, "rays":0, "undecidable":0,
+    "most_undecidable":0.1, "wrong":0,
     "missed":0, "depth_error_ulp_p50":0.0, "depth_error_ulp_p99":0.0,
     "depth_error_ulp_max":0.0, "nans":0, "evaluations_per_ray":0.0, "verdict":"ok",
     "note":"none was read"})"));
