@@ -5,7 +5,8 @@
 //   "teapot"); const trisect::BakedScene scene = trisect::bake_with_subpatches(built.mesh, {});
 //   const trisect::TraceSettings settings = trisect::framed_settings(built.mesh, scene, 800, 600);
 //   const auto result =
-//       trisect::trace_scene({}, scene, trisect::make_params(scene, settings), {});
+//       trisect::trace_scene({}, scene, trisect::make_params(scene, settings),
+//                            {.accel = trisect::Accel::tiles});
 //
 // Lengths are in the units of the model, images are rows from top to bottom. The library prints
 // nothing, reads no environment variable and catches no signal: what it has to say comes back or is
