@@ -1,12 +1,13 @@
 // The library in one header: a model in, a frame out, and what compares and judges frames.
 //
 //   #include <trisect/trisect.h>
-//   const trisect::BuiltMesh built = trisect::build_mesh(trisect::read_obj("teapot.obj"),
-//   "teapot"); const trisect::BakedScene scene = trisect::bake_with_subpatches(built.mesh, {});
-//   const trisect::TraceSettings settings = trisect::framed_settings(built.mesh, scene, 800, 600);
-//   const auto result =
-//       trisect::trace_scene({}, scene, trisect::make_params(scene, settings),
-//                            {.accel = trisect::Accel::tiles});
+//   using namespace trisect;
+//   const BuiltMesh built = build_mesh(read_obj("teapot.obj"), "teapot.obj");
+//   const BakedScene scene = bake_with_subpatches(built.mesh, {});
+//   const TraceSettings settings = framed_settings(built.mesh, scene, 800, 600);
+//   const TraceParams params = make_params(scene, settings);
+//   const auto result = trace_scene({}, scene, params, {.accel = Accel::tiles});
+//   save_image(result->frame, "teapot.png");
 //
 // Lengths are in the units of the model, images are rows from top to bottom. The library prints
 // nothing, reads no environment variable and catches no signal: what it has to say comes back or is
