@@ -57,7 +57,7 @@ std::vector<Ball> sphere_points(const Patch& patch, int level) {
   std::vector<Ball> points;
   for (const in_double::SubTriangle& sub_triangle : sub_triangles) {
     const CornerWeights weights = corner_weights(sub_triangle);
-    const PartCorners corners = corners_of(patch, weights);
+    const PatchCorners corners = corners_of(patch, weights);
     const std::optional<Interval> sigma = sphere_sigma_range(patch, weights, corners);
     if (!sigma) return {};
     for (std::size_t k = 0; k < 3; ++k) {

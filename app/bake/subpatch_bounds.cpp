@@ -57,7 +57,7 @@ struct PatchData {
 // A piece of a subpatch, and the range of sigma over it, if one is known.
 struct RangedPiece {
   CornerWeights weights;
-  PartCorners corners;
+  PatchCorners corners;
   std::optional<Interval> sigma;
 };
 
@@ -182,7 +182,7 @@ void add_pieces(const PatchData& patch, const SubTriangle& sub_triangle, int div
     return;
   }
   const CornerWeights weights = corner_weights(sub_triangle);
-  const PartCorners corners = corners_of(patch.corners, weights);
+  const PatchCorners corners = corners_of(patch.corners, weights);
   pieces.push_back({weights, corners, sphere_sigma_range(patch.corners, weights, corners)});
 }
 

@@ -149,7 +149,7 @@ PatchSearch::Node PatchSearch::node_of(const in_double::SubTriangle& sub_triangl
 PatchSearch::Tangents PatchSearch::tangents_of(const in_double::SubTriangle& sub_triangle) const {
   const CornerWeights weights = corner_weights(sub_triangle);
   if (choice_.surface == SURFACE_SPHERE) {
-    const PartCorners corners = corners_of(patch_, weights);
+    const PatchCorners corners = corners_of(patch_, weights);
     if (const auto sigma = sphere_derivative_ranges(patch_, weights, corners)) {
       // S_u = dT + D sigma_u + dD sigma, each factor a middle and what it may differ from it.
       const dvec3 D = (corners.D[0] + corners.D[1] + corners.D[2]) / 3.0;

@@ -57,7 +57,7 @@ auto cubic_of(const Quadratic<Value>& q, const std::array<Linear, 3>& l, const P
 }
 
 // The flat sub-triangle with a ball of `radius` about each of its points.
-Enclosure around_base(const PartCorners& corners, double radius) {
+Enclosure around_base(const PatchCorners& corners, double radius) {
   Enclosure e{};
   std::copy(corners.T.begin(), corners.T.end(), e.points.begin());
   e.count = 3;
@@ -66,7 +66,7 @@ Enclosure around_base(const PartCorners& corners, double radius) {
 }
 
 Enclosure enclose_cubic(const Patch& patch, const in_double::SubTriangle& sub_triangle,
-                        const PartCorners& corners, double alpha) {
+                        const PatchCorners& corners, double alpha) {
   Enclosure e{};
   e.count = 10;
   e.points = control_points(patch, phong_quadratic(patch, alpha), sub_triangle);
@@ -87,7 +87,7 @@ Quadratic<dvec3> phong_offset_over(const Patch& patch, const CornerWeights& weig
 }
 
 Enclosure enclose_quotient(const Patch& patch, const CornerWeights& weights,
-                           const PartCorners& corners, double alpha) {
+                           const PatchCorners& corners, double alpha) {
   const auto& [T, D] = corners;
   const Quadratic<dvec3> K = phong_offset_over(patch, weights);
   double farthest = 0.0;
@@ -133,7 +133,7 @@ Enclosure enclose_quotient(const Patch& patch, const CornerWeights& weights,
 }
 
 Enclosure enclose_sphere(const Patch& patch, const CornerWeights& weights,
-                         const PartCorners& corners) {
+                         const PatchCorners& corners) {
   const Enclosure wide = around_base(corners, patch.longest * (1.0 + kRounding));
   const auto sigma = sphere_sigma_range(patch, weights, corners);
   if (!sigma || !std::isfinite(sigma->lo) || !std::isfinite(sigma->hi)) return wide;
@@ -148,7 +148,7 @@ Enclosure enclose_sphere(const Patch& patch, const CornerWeights& weights,
 Enclosure enclose_surface(const SurfaceChoice& choice, const Patch& patch,
                           const in_double::SubTriangle& sub_triangle) {
   const CornerWeights weights = corner_weights(sub_triangle);
-  const PartCorners corners = corners_of(patch, weights);
+  const PatchCorners corners = corners_of(patch, weights);
   if (choice.surface == SURFACE_FLAT) return around_base(corners, 0.0);
   if (choice.surface == SURFACE_SPHERE) return enclose_sphere(patch, weights, corners);
   return choice.shell == SHELL_NORMAL ? enclose_cubic(patch, sub_triangle, corners, choice.alpha)
@@ -185,8 +185,8 @@ CornerWeights corner_weights(const in_double::SubTriangle& sub_triangle) {
           in_double::weights_of(sub_triangle, {0.0, 0.0, 1.0})};
 }
 
-PartCorners corners_of(const Patch& patch, const CornerWeights& weights) {
-  PartCorners corners{};
+PatchCorners corners_of(const Patch& patch, const CornerWeights& weights) {
+  PatchCorners corners{};
   for (std::size_t k = 0; k < 3; ++k) {
     corners.T[k] = weigh(weights[k], patch.P);
     corners.D[k] = weigh(weights[k], patch.D);

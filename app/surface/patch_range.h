@@ -50,12 +50,12 @@ inline double longest_of(const std::array<glm::dvec3, 3>& vectors) {
 
 // At the corners of a sub-triangle: the points of the base triangle and the shell's directions.
 // Both are linear in between.
-struct PartCorners {
+struct PatchCorners {
   std::array<glm::dvec3, 3> T;
   std::array<glm::dvec3, 3> D;
 };
 
-PartCorners corners_of(const Patch& patch, const CornerWeights& weights);
+PatchCorners corners_of(const Patch& patch, const CornerWeights& weights);
 
 // A set that contains S over a sub-triangle: the sum of the convex hull of the first `count`
 // points, of the hull of D times the numbers in `sigma`, and of a ball of this radius, which is

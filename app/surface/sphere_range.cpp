@@ -33,7 +33,7 @@ struct SphereOverSubTriangle {
 };
 
 SphereOverSubTriangle sphere_over(const Patch& patch, const CornerWeights& weights,
-                                  const PartCorners& corners) {
+                                  const PatchCorners& corners) {
   SphereOverSubTriangle over{};
   over.T = corners_with_error(weights, patch.P, corners.T);
   over.D = corners_with_error(weights, patch.D, corners.D);
@@ -104,12 +104,12 @@ bool is_root_with_derivatives(const Patch& patch, std::size_t i, const HeightRan
 }  // namespace
 
 Interval direction_square_range(const Patch& patch, const CornerWeights& weights,
-                                const PartCorners& corners) {
+                                const PatchCorners& corners) {
   return in_double::square_range(corners_with_error(weights, patch.D, corners.D), patch.n);
 }
 
 std::optional<Interval> sphere_sigma_range(const Patch& patch, const CornerWeights& weights,
-                                           const PartCorners& corners) {
+                                           const PatchCorners& corners) {
   const SphereOverSubTriangle over = sphere_over(patch, weights, corners);
   if (!has_directions(over)) return std::nullopt;
   Interval sigma(0.0);
@@ -130,7 +130,7 @@ bool sphere_is_smooth(const Patch& patch, const CornerWeights& weights) {
 
 std::optional<SigmaRanges> sphere_derivative_ranges(const Patch& patch,
                                                     const CornerWeights& weights,
-                                                    const PartCorners& corners) {
+                                                    const PatchCorners& corners) {
   const SphereOverSubTriangle over = sphere_over(patch, weights, corners);
   if (!has_directions(over)) return std::nullopt;
   const auto& P = patch.P;

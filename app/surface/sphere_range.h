@@ -15,11 +15,11 @@ namespace trisect {
 
 // Range of |D|^2 over a sub-triangle. `corners`, here and below: corners_of(patch, part).
 Interval direction_square_range(const Patch& patch, const CornerWeights& weights,
-                                const PartCorners& corners);
+                                const PatchCorners& corners);
 
 // Range of sigma, in units of D, over a sub-triangle; nothing where D may be shorter than 1e-10.
 std::optional<Interval> sphere_sigma_range(const Patch& patch, const CornerWeights& weights,
-                                           const PartCorners& corners);
+                                           const PatchCorners& corners);
 
 // Whether sigma is proven to be smooth over a sub-triangle, some of which may lie beyond the
 // triangle's border: lines do not begin to miss a vertex's sphere there, and no height comes to its
@@ -36,6 +36,6 @@ struct SigmaRanges {
 };
 std::optional<SigmaRanges> sphere_derivative_ranges(const Patch& patch,
                                                     const CornerWeights& weights,
-                                                    const PartCorners& corners);
+                                                    const PatchCorners& corners);
 
 }  // namespace trisect

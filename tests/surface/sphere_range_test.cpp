@@ -56,7 +56,7 @@ TEST(SphereRanges, HoldSamplesOfRandomPatches) {
     const in_long_double::Shape shape{SURFACE_SPHERE, shell, 0.0L};
     for (const int levels : {0, 1, 2, 3, 5, 8, 12, 20, 44}) {
       const CornerWeights weights = random_sub_triangle(random, levels);
-      const PartCorners corners = corners_of(patch, weights);
+      const PatchCorners corners = corners_of(patch, weights);
       const auto sigma = sphere_sigma_range(patch, weights, corners);
       const auto derivatives = sphere_derivative_ranges(patch, weights, corners);
       const Interval DD = direction_square_range(patch, weights, corners);
