@@ -159,8 +159,10 @@ HeightRange height_range(Triangle tri, int i, Corners T, Corners D, Range DD) {
   if (blend.lo <= LEAST_BLEND || blend.hi >= MOST_BLEND) h.rate = range_hull(h.rate, point_range(real(0.0)));
   // Across the line behind the vertex c jumps.
   if (blend.lo <= LEAST_BLEND && blend.hi >= MOST_BLEND) h.rate = unbounded_range();
+  // A square is not negative. The proofs do without that: it would tighten the balls of patches by some digits, and where
+  // the bisection's chords begin, which are theirs.
   Range xx = product_range(h.x, h.x);
-  h.xx = between(max(xx.lo, real(0.0)), max(xx.hi, real(0.0)));
+  h.xx = between(BY_PRECISION(max(xx.lo, real(0.0)), xx.lo), max(xx.hi, real(0.0)));
   h.xD = product_range(h.x, D);
   h.DD = DD;
   h.DN = linear_range(D, h.N);
