@@ -2,11 +2,14 @@
 # Whether this tree's pictures are those of another revision, bit for bit: every model, surface and shell, by tiles, list,
 # tree with shadows, bisection, CPU and OpenGL. Hits, triangles, Z and colours must be the same everywhere, to the last
 # bit. Prints a line for each way and ends with 1 if a picture is another one.
-#   scripts/same-pictures.sh REVISION
+#   scripts/same-pictures.sh REVISION [MODEL.obj ...]      without models all in assets/, in half an hour
 set -euo pipefail
 cd "$(dirname "$0")/.."
-[ $# -eq 1 ] || { echo "usage: scripts/same-pictures.sh REVISION" >&2; exit 2; }
+[ $# -ge 1 ] || { echo "usage: scripts/same-pictures.sh REVISION [MODEL.obj ...]" >&2; exit 2; }
 revision=$(git rev-parse --verify "$1^{commit}")
+shift
+models=("$@")
+[ $# -gt 0 ] || models=(assets/*.obj)
 scripts/setup.sh build
 cmake --preset release >/dev/null 2>&1
 cmake --build --preset release --target trisect >/dev/null
@@ -26,7 +29,7 @@ status=0
 compare() { # NAME OPTION ...
   local name=$1 pictures=0 apart=0
   shift
-  for model in assets/*.obj; do
+  for model in "${models[@]}"; do
     for surface in flat phong sphere; do
       for shell in normal height; do
         for program in "$before" "$after"; do
