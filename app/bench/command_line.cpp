@@ -4,6 +4,7 @@
 
 #include "app/bench/commands.h"
 #include "app/cli/command_options.h"
+#include "app/cli/options.h"
 
 namespace trisect::bench {
 namespace {
