@@ -60,8 +60,6 @@ bool parallel_rows(uint32_t height, const std::function<void(uint32_t)>& row,
   }
   threads.clear();
   if (error) std::rethrow_exception(error);
-  // All rows may be done although progress said stop, if the last one had begun by then.
-  if (done < height) return false;
   return !stopped && (!progress || progress(height));
 }
 

@@ -6,7 +6,6 @@
 #include <thread>
 #include <vector>
 
-#include "app/base/atomic_file.h"
 #include "app/base/error.h"
 #include "app/bench/commands.h"
 #include "app/bench/gnuplot.h"
@@ -112,9 +111,8 @@ int bench_pareto(const ParetoOptions& options) {
     folder.plot(name, [&](const std::string& terminal, const std::string& file) {
       return bench::plot_script(scene, terminal, file);
     });
-    AtomicFile picture(folder.path() / (name + "-thesis.png"));
-    write_png(comparison_picture(scene.truth, scene.thesis), picture);
-    picture.commit();
+    save_image(comparison_picture(scene.truth, scene.thesis),
+               folder.path() / (name + "-thesis.png"));
   }
   folder.write("report.csv",
                fmt::format("# {}\n{}", fmt::join(facts, "\n# "), bench::csv_of(scenes)));
