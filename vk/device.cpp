@@ -1,8 +1,5 @@
 #include "vk/device.h"
 
-#include <algorithm>
-#include <array>
-#include <string_view>
 #include <vector>
 
 #include "vk/result.h"
@@ -11,63 +8,8 @@ namespace trisect::gpu {
 
 namespace {
 
-const char* const kAddressExtension = VK_KHR_BUFFER_DEVICE_ADDRESS_EXTENSION_NAME;
-
-bool has_extension(VkPhysicalDevice device, std::string_view name) {
-  uint32_t count = 0;
-  TRISECT_VK(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr));
-  std::vector<VkExtensionProperties> extensions(count);
-  TRISECT_VK(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()));
-  return std::any_of(
-      extensions.begin(), extensions.end(),
-      [name](const VkExtensionProperties& extension) { return extension.extensionName == name; });
-}
-
-bool can_address_buffers(VkPhysicalDevice device) {
-  if (!has_extension(device, kAddressExtension)) return false;
-  VkPhysicalDeviceBufferDeviceAddressFeaturesKHR addresses{
-      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES_KHR};
-  VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-  features.pNext = &addresses;
-  vkGetPhysicalDeviceFeatures2(device, &features);
-  return addresses.bufferDeviceAddress == VK_TRUE;
-}
-
-// The extensions that ray queries need in Vulkan 1.1, beside that for buffer addresses.
-constexpr std::array kQueryExtensions{VK_KHR_RAY_QUERY_EXTENSION_NAME,
-                                      VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
-                                      VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
-                                      VK_EXT_DESCRIPTOR_INDEXING_EXTENSION_NAME,
-                                      VK_KHR_SPIRV_1_4_EXTENSION_NAME,
-                                      VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME};
-
-bool can_query_rays(VkPhysicalDevice device) {
-  const bool has_all =
-      std::all_of(kQueryExtensions.begin(), kQueryExtensions.end(),
-                  [device](const char* name) { return has_extension(device, name); });
-  if (!has_all || !can_address_buffers(device)) return false;
-  VkPhysicalDeviceRayQueryFeaturesKHR queries{
-      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR};
-  VkPhysicalDeviceAccelerationStructureFeaturesKHR structures{
-      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR};
-  structures.pNext = &queries;
-  VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-  features.pNext = &structures;
-  vkGetPhysicalDeviceFeatures2(device, &features);
-  return queries.rayQuery == VK_TRUE && structures.accelerationStructure == VK_TRUE;
-}
-
-VkDeviceSize scratch_alignment_of(VkPhysicalDevice device) {
-  VkPhysicalDeviceAccelerationStructurePropertiesKHR structures{
-      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
-  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
-  properties.pNext = &structures;
-  vkGetPhysicalDeviceProperties2(device, &properties);
-  return structures.minAccelerationStructureScratchOffsetAlignment;
-}
-
-// The index of a queue family with compute and graphics that can present to the surface, or -1.
-int presenting_family(VkPhysicalDevice device, VkSurfaceKHR surface) {
+// A queue family with compute and graphics that can present to the surface, if there is one.
+std::optional<uint32_t> presenting_family(VkPhysicalDevice device, VkSurfaceKHR surface) {
   uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
@@ -76,9 +18,9 @@ int presenting_family(VkPhysicalDevice device, VkSurfaceKHR surface) {
   for (uint32_t i = 0; i < count; ++i) {
     VkBool32 presents = VK_FALSE;
     TRISECT_VK(vkGetPhysicalDeviceSurfaceSupportKHR(device, i, surface, &presents));
-    if ((families[i].queueFlags & both) == both && presents == VK_TRUE) return static_cast<int>(i);
+    if ((families[i].queueFlags & both) == both && presents == VK_TRUE) return i;
   }
-  return -1;
+  return std::nullopt;
 }
 
 // Device::pipeline_key(): the identifiers in the header of a pipeline cache, and the driver's
@@ -102,44 +44,46 @@ std::string key_of(const VkPhysicalDeviceProperties& properties) {
 
 }  // namespace
 
-Device::Device(const Instance& instance, const std::string& request, VkSurfaceKHR surface) {
+Device::Device(const Instance& instance, const std::string& request, VkSurfaceKHR surface,
+               std::optional<uint32_t> subgroup_size) {
   const std::vector<DeviceReport> reports = instance.reports();
   const std::size_t index = choose_device(reports, request);
-  const VkPhysicalDevice physical = instance.physical_devices()[index];
   report_ = reports[index];
-  physical_ = physical;
-  int family = compute_family(physical);
-  std::vector<const char*> extensions;
+  capabilities_ = instance.devices()[index];
+  std::optional<uint32_t> family = capabilities_.compute_family;
+  std::vector<const char*> surface_extensions;
   if (surface != VK_NULL_HANDLE) {
-    const bool has_swapchain = has_extension(physical, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
-    family = has_swapchain ? presenting_family(physical, surface) : -1;
-    if (family < 0) {
-      throw NoDevice("device " + report_.name + " cannot show pictures in this window.");
-    }
-    extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    const bool has_swapchain = capabilities_.lists(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    family = has_swapchain ? presenting_family(physical(), surface) : std::nullopt;
+    if (!family) throw NoDevice("device " + report_.name + " cannot show pictures in this window.");
+    surface_extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
   }
-  family_ = static_cast<uint32_t>(family);
+  family_ = family.value();
+  const std::optional<SubgroupChoice> subgroups =
+      choose_subgroups(capabilities_.subgroups, subgroup_size);
+  if (!subgroups) {
+    throw Error("device " + report_.name + " does not let kernels ask for subgroups of " +
+                std::to_string(subgroup_size.value()) + " invocations");
+  }
+  subgroups_ = *subgroups;
 
-  VkPhysicalDeviceSubgroupProperties subgroups{
-      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
-  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
-  properties.pNext = &subgroups;
-  vkGetPhysicalDeviceProperties2(physical, &properties);
-  limits_ = properties.properties.limits;
-  constexpr VkSubgroupFeatureFlags operations = VK_SUBGROUP_FEATURE_VOTE_BIT |
-                                                VK_SUBGROUP_FEATURE_BALLOT_BIT |
-                                                VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
-  if ((subgroups.supportedOperations & operations) == operations &&
-      (subgroups.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0) {
-    subgroup_size_ = subgroups.subgroupSize;
-  }
-  vkGetPhysicalDeviceMemoryProperties(physical, &memory_);
+  vkGetPhysicalDeviceMemoryProperties(physical(), &memory_);
   uint32_t count = 0;
-  vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
+  vkGetPhysicalDeviceQueueFamilyProperties(physical(), &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
-  vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+  vkGetPhysicalDeviceQueueFamilyProperties(physical(), &count, families.data());
   timestamp_bits_ = families[family_].timestampValidBits;
 
+  create(surface_extensions);
+  vkGetDeviceQueue(get(), family_, 0, &queue_);
+  const VkPipelineCacheCreateInfo cache_info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+  TRISECT_VK(vkCreatePipelineCache(get(), &cache_info, nullptr, pipeline_cache_.fill(get())));
+  pipeline_key_ = key_of(capabilities_.properties);
+  load_functions(instance.can_name_objects());
+}
+
+// With one queue and all that the capabilities have.
+void Device::create(std::span<const char* const> surface_extensions) {
   const float priority = 1.0F;
   VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
   queue.queueFamilyIndex = family_;
@@ -148,50 +92,48 @@ Device::Device(const Instance& instance, const std::string& request, VkSurfaceKH
   VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
-  const bool addresses = can_address_buffers(physical);
-  VkPhysicalDeviceBufferDeviceAddressFeaturesKHR address_features{
-      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES_KHR};
-  address_features.bufferDeviceAddress = VK_TRUE;
-  if (addresses) {
-    info.pNext = &address_features;
-    extensions.push_back(kAddressExtension);
-  }
-  const bool queries = can_query_rays(physical);
-  VkPhysicalDeviceRayQueryFeaturesKHR query_features{
+
+  const auto enable_if = [&info](bool has, auto& features) {
+    if (!has) return;
+    features.pNext = const_cast<void*>(info.pNext);
+    info.pNext = &features;
+  };
+  VkPhysicalDeviceSubgroupSizeControlFeatures subgroups{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES};
+  subgroups.subgroupSizeControl = subgroups_.required ? VK_TRUE : VK_FALSE;
+  subgroups.computeFullSubgroups = subgroups_.full ? VK_TRUE : VK_FALSE;
+  enable_if(subgroups_.required || subgroups_.full, subgroups);
+  VkPhysicalDeviceBufferDeviceAddressFeatures addresses{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES};
+  addresses.bufferDeviceAddress = VK_TRUE;
+  enable_if(capabilities_.buffer_addresses, addresses);
+  VkPhysicalDeviceRayQueryFeaturesKHR queries{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR};
-  query_features.rayQuery = VK_TRUE;
-  query_features.pNext = &address_features;
-  VkPhysicalDeviceAccelerationStructureFeaturesKHR structure_features{
+  queries.rayQuery = VK_TRUE;
+  enable_if(capabilities_.ray_queries, queries);
+  VkPhysicalDeviceAccelerationStructureFeaturesKHR structures{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR};
-  structure_features.accelerationStructure = VK_TRUE;
-  structure_features.pNext = &query_features;
-  if (queries) {
-    info.pNext = &structure_features;
-    for (const char* name : kQueryExtensions) extensions.push_back(name);
-    scratch_alignment_ = scratch_alignment_of(physical);
-  }
+  structures.accelerationStructure = VK_TRUE;
+  enable_if(capabilities_.ray_queries, structures);
+
+  std::vector<const char*> extensions = extensions_for(capabilities_);
+  extensions.insert(extensions.end(), surface_extensions.begin(), surface_extensions.end());
   info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
   info.ppEnabledExtensionNames = extensions.data();
-  TRISECT_VK(vkCreateDevice(physical, &info, nullptr, &handle_.device));
-  vkGetDeviceQueue(get(), family_, 0, &queue_);
-  const VkPipelineCacheCreateInfo cache_info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
-  TRISECT_VK(vkCreatePipelineCache(get(), &cache_info, nullptr, pipeline_cache_.fill(get())));
-  pipeline_key_ = key_of(properties.properties);
-  if (instance.can_name_objects()) {
-    set_name_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
-        vkGetDeviceProcAddr(get(), "vkSetDebugUtilsObjectNameEXT"));
-  }
-  if (addresses) {
-    address_of_ = reinterpret_cast<PFN_vkGetBufferDeviceAddressKHR>(
-        vkGetDeviceProcAddr(get(), "vkGetBufferDeviceAddressKHR"));
-  }
-  if (queries) load_structure_functions();
+  TRISECT_VK(vkCreateDevice(physical(), &info, nullptr, &handle_.device));
 }
 
-void Device::load_structure_functions() {
+void Device::load_functions(bool can_name_objects) {
   const auto load = [&]<typename Function>(Function& function, const char* name) {
     function = reinterpret_cast<Function>(vkGetDeviceProcAddr(get(), name));
   };
+  if (can_name_objects) load(set_name_, "vkSetDebugUtilsObjectNameEXT");
+  if (capabilities_.buffer_addresses) {
+    // The extension's function has another name than that of Vulkan 1.2.
+    const bool core = capabilities_.version >= VK_API_VERSION_1_2;
+    load(address_of_, core ? "vkGetBufferDeviceAddress" : "vkGetBufferDeviceAddressKHR");
+  }
+  if (!capabilities_.ray_queries) return;
   load(structures_.create, "vkCreateAccelerationStructureKHR");
   load(structures_.destroy, "vkDestroyAccelerationStructureKHR");
   load(structures_.get_sizes, "vkGetAccelerationStructureBuildSizesKHR");

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,10 +21,12 @@ namespace trisect::gpu {
 class Device {
  public:
   // request: which device, as choose_device() takes it. surface: a window's, on which the device
-  // will present; the queue then has graphics too. The instance must outlive the device. Throws
-  // NoDevice if no device fits, Error if the driver fails.
+  // will present; the queue then has graphics too. subgroup_size: as choose_subgroups() takes it.
+  // The instance must outlive the device. Throws NoDevice if no device fits, Error if the driver
+  // fails or the device does not let kernels ask for that size of subgroups.
   Device(const Instance& instance, const std::string& request,
-         VkSurfaceKHR surface = VK_NULL_HANDLE);
+         VkSurfaceKHR surface = VK_NULL_HANDLE,
+         std::optional<uint32_t> subgroup_size = std::nullopt);
   ~Device() = default;
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
@@ -31,18 +34,23 @@ class Device {
   Device& operator=(Device&&) = delete;
 
   [[nodiscard]] VkDevice get() const { return handle_.device; }
-  [[nodiscard]] VkPhysicalDevice physical() const { return physical_; }
+  [[nodiscard]] VkPhysicalDevice physical() const { return capabilities_.device; }
   [[nodiscard]] VkQueue queue() const { return queue_; }
   // The queue's family.
   [[nodiscard]] uint32_t family() const { return family_; }
   [[nodiscard]] const DeviceReport& report() const { return report_; }
-  [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return limits_; }
+  [[nodiscard]] const Capabilities& capabilities() const { return capabilities_; }
+  [[nodiscard]] const VkPhysicalDeviceLimits& limits() const {
+    return capabilities_.properties.limits;
+  }
 
+  // The subgroups of kernels that use their operations.
+  [[nodiscard]] const SubgroupChoice& subgroups() const { return subgroups_; }
   // Invocations per subgroup; 0 if compute shaders lack the vote, ballot or arithmetic operations
   // of subgroups.
-  [[nodiscard]] uint32_t subgroup_size() const { return subgroup_size_; }
+  [[nodiscard]] uint32_t subgroup_size() const { return subgroups_.size; }
 
-  // Whether kernels can reach buffers by their addresses (VK_KHR_buffer_device_address).
+  // Whether kernels can reach buffers by their addresses.
   [[nodiscard]] bool has_addresses() const { return address_of_ != nullptr; }
   // The buffer must have been made for it. Only if has_addresses().
   [[nodiscard]] VkDeviceAddress address_of(VkBuffer buffer) const;
@@ -58,7 +66,7 @@ class Device {
     PFN_vkCmdBuildAccelerationStructuresKHR build = nullptr;
   };
   [[nodiscard]] const StructureFunctions& structures() const { return structures_; }
-  [[nodiscard]] VkDeviceSize scratch_alignment() const { return scratch_alignment_; }
+  [[nodiscard]] VkDeviceSize scratch_alignment() const { return capabilities_.scratch_alignment; }
 
   // The cache of compiled pipelines that all pipelines of this device are made with.
   [[nodiscard]] VkPipelineCache pipeline_cache() const { return pipeline_cache_.get(); }
@@ -84,7 +92,8 @@ class Device {
   }
 
  private:
-  void load_structure_functions();
+  void create(std::span<const char* const> surface_extensions);
+  void load_functions(bool can_name_objects);
   void name_object(VkObjectType type, uint64_t handle, const std::string& text) const;
 
   // Declared before the objects that the device made, so that it is destroyed after them.
@@ -98,21 +107,19 @@ class Device {
     Handle& operator=(Handle&&) = delete;
   };
 
-  VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+  Capabilities capabilities_;
+  SubgroupChoice subgroups_;
   Handle handle_;
   Owned<VkPipelineCache, vkDestroyPipelineCache> pipeline_cache_;
   std::string pipeline_key_;
   VkQueue queue_ = VK_NULL_HANDLE;
   uint32_t family_ = 0;
   uint32_t timestamp_bits_ = 0;
-  uint32_t subgroup_size_ = 0;
   DeviceReport report_;
-  VkPhysicalDeviceLimits limits_{};
   VkPhysicalDeviceMemoryProperties memory_{};
   PFN_vkSetDebugUtilsObjectNameEXT set_name_ = nullptr;
   StructureFunctions structures_;
-  VkDeviceSize scratch_alignment_ = 1;
-  PFN_vkGetBufferDeviceAddressKHR address_of_ = nullptr;
+  PFN_vkGetBufferDeviceAddress address_of_ = nullptr;
 };
 
 }  // namespace trisect::gpu

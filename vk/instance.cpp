@@ -12,9 +12,8 @@ namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
-// What a device must have, beside a queue with compute.
-constexpr uint32_t kApiVersion = VK_API_VERSION_1_1;
-constexpr uint32_t kWorkgroupInvocations = 64;
+// What a device must have, beside a queue with compute and unmet_needs() of nothing.
+constexpr uint32_t kLeastVersion = VK_API_VERSION_1_1;
 
 VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT /*severity*/,
                                           VkDebugUtilsMessageTypeFlagsEXT /*types*/,
@@ -78,33 +77,22 @@ constexpr std::array<TypeName, 5> kTypes{{
     {VK_PHYSICAL_DEVICE_TYPE_OTHER, "other", 0},
 }};
 
-DeviceReport report_on(VkPhysicalDevice device) {
-  VkPhysicalDeviceProperties basic{};
-  vkGetPhysicalDeviceProperties(device, &basic);
+DeviceReport report_on(const Capabilities& device) {
+  const VkPhysicalDeviceProperties& properties = device.properties;
   DeviceReport report;
-  report.name = basic.deviceName;
-  report.api = version_text(basic.apiVersion);
+  report.name = properties.deviceName;
+  report.api = version_text(properties.apiVersion);
+  report.driver = device.driver;
   for (const TypeName& entry : kTypes) {
-    if (entry.type != basic.deviceType) continue;
+    if (entry.type != properties.deviceType) continue;
     report.type = entry.name;
     report.rank = entry.rank;
   }
-  if (basic.apiVersion < kApiVersion) {
-    report.lacks.push_back("Vulkan " + version_text(kApiVersion));
-  }
-  if (compute_family(device) < 0) report.lacks.emplace_back("a compute queue");
-  if (basic.limits.maxComputeWorkGroupInvocations < kWorkgroupInvocations) {
-    report.lacks.push_back("workgroups of " + std::to_string(kWorkgroupInvocations) +
-                           " invocations");
-  }
-  report.driver = std::to_string(basic.driverVersion);
-  if (basic.apiVersion >= VK_API_VERSION_1_2) {
-    VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
-    VkPhysicalDeviceProperties2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
-    all.pNext = &driver;
-    vkGetPhysicalDeviceProperties2(device, &all);
-    report.driver = std::string(driver.driverName) + ", " + driver.driverInfo;
-  }
+  if (device.version < kLeastVersion)
+    report.lacks.push_back("Vulkan " + version_text(kLeastVersion));
+  if (!device.compute_family) report.lacks.emplace_back("a compute queue");
+  const std::vector<std::string> unmet = unmet_needs(properties.limits);
+  report.lacks.insert(report.lacks.end(), unmet.begin(), unmet.end());
   return report;
 }
 
@@ -143,7 +131,7 @@ void MessageLog::clear() {
   messages_.clear();
 }
 
-Instance::Instance(bool validation, std::span<const char* const> surface_extensions)
+Instance::Instance(bool validation, std::span<const char* const> surface_extensions, uint32_t most)
     : log_(std::make_unique<MessageLog>()) {
   if (validation && !has_layer(kValidationLayer)) {
     throw NoDevice(std::string("--validation needs the Vulkan layer ") + kValidationLayer +
@@ -157,11 +145,18 @@ Instance::Instance(bool validation, std::span<const char* const> surface_extensi
   std::vector<const char*> extensions(surface_extensions.begin(), surface_extensions.end());
   if (debug_utils_) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
   if (validation) extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+  // Else the loader leaves out devices that lack some of what Vulkan promises (MoltenVK).
+  const bool portability = has_extension(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
+  if (portability) extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
 
+  uint32_t loader_version = 0;
+  TRISECT_VK(vkEnumerateInstanceVersion(&loader_version));
+  const uint32_t version = std::max(std::min(loader_version, most), kLeastVersion);
   VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
   application.pApplicationName = "trisect";
-  application.apiVersion = kApiVersion;
+  application.apiVersion = version;
   VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
+  if (portability) info.flags = VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR;
   info.pApplicationInfo = &application;
   info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
   info.ppEnabledExtensionNames = extensions.data();
@@ -194,8 +189,11 @@ Instance::Instance(bool validation, std::span<const char* const> surface_extensi
     }
     uint32_t count = 0;
     TRISECT_VK(vkEnumeratePhysicalDevices(instance_, &count, nullptr));
-    devices_.resize(count);
-    TRISECT_VK(vkEnumeratePhysicalDevices(instance_, &count, devices_.data()));
+    std::vector<VkPhysicalDevice> devices(count);
+    TRISECT_VK(vkEnumeratePhysicalDevices(instance_, &count, devices.data()));
+    for (const VkPhysicalDevice device : devices) {
+      devices_.push_back(capabilities_of(device, version));
+    }
   } catch (...) {
     destroy();
     throw;
@@ -218,17 +216,6 @@ std::vector<DeviceReport> Instance::reports() const {
   std::vector<DeviceReport> reports;
   std::transform(devices_.begin(), devices_.end(), std::back_inserter(reports), report_on);
   return reports;
-}
-
-int compute_family(VkPhysicalDevice device) {
-  uint32_t count = 0;
-  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
-  std::vector<VkQueueFamilyProperties> families(count);
-  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-  for (uint32_t i = 0; i < count; ++i) {
-    if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) != 0) return static_cast<int>(i);
-  }
-  return -1;
 }
 
 std::size_t choose_device(const std::vector<DeviceReport>& reports, const std::string& request) {

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "vk/capabilities.h"
+
 namespace trisect::gpu {
 
 // A description of a device for users.
@@ -42,9 +44,11 @@ class Instance {
  public:
   // validation: with the Khronos validation layer, synchronisation validation included.
   // surface_extensions: instance extensions that the window system needs, if there is a window.
-  // Throws NoDevice if there is no Vulkan driver, or no validation layer though it is asked for,
-  // and Error if the driver fails.
-  explicit Instance(bool validation, std::span<const char* const> surface_extensions = {});
+  // most: the newest Vulkan version to use of those that the loader has; the oldest is 1.1. Throws
+  // NoDevice if there is no Vulkan driver, or no validation layer though it is asked for, and Error
+  // if the driver fails.
+  explicit Instance(bool validation, std::span<const char* const> surface_extensions = {},
+                    uint32_t most = VK_API_VERSION_1_3);
   ~Instance();
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
@@ -52,9 +56,10 @@ class Instance {
   Instance& operator=(Instance&&) = delete;
 
   [[nodiscard]] VkInstance get() const { return instance_; }
-  [[nodiscard]] const std::vector<VkPhysicalDevice>& physical_devices() const { return devices_; }
+  // One per physical device.
+  [[nodiscard]] const std::vector<Capabilities>& devices() const { return devices_; }
 
-  // One report per physical device, in the order of physical_devices().
+  // One report per physical device, in the order of devices().
   [[nodiscard]] std::vector<DeviceReport> reports() const;
 
   [[nodiscard]] MessageLog& log() const { return *log_; }
@@ -66,12 +71,9 @@ class Instance {
   VkInstance instance_ = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   std::unique_ptr<MessageLog> log_;
-  std::vector<VkPhysicalDevice> devices_;
+  std::vector<Capabilities> devices_;
   bool debug_utils_ = false;
 };
-
-// The index of a device's first queue family with compute, or -1.
-int compute_family(VkPhysicalDevice device);
 
 // The index of the device to use. request: empty for the usable one of the highest rank; a number
 // for the one with this index; else a part of its name, in any case. Throws NoDevice, with a list

@@ -1,11 +1,44 @@
 #include "vk/kernel.h"
 
+#include <cstddef>
 #include <string>
 #include <utility>
 
 #include "vk/result.h"
 
 namespace trisect::gpu {
+namespace {
+
+// What the pipeline must know of a module.
+struct ModuleFacts {
+  bool uses_subgroups = false;  // their operations
+  uint32_t workgroup_x = 0;     // invocations of a workgroup along x
+};
+
+ModuleFacts facts_of(std::span<const uint32_t> spirv) {
+  // SPIR-V's numbers of instructions and of their operands.
+  constexpr uint32_t op_execution_mode = 16;
+  constexpr uint32_t op_capability = 17;
+  constexpr uint32_t op_function = 54;
+  constexpr uint32_t mode_local_size = 17;
+  constexpr uint32_t capability_group_non_uniform = 61;
+  constexpr std::size_t header_words = 5;
+  ModuleFacts facts;
+  for (std::size_t at = header_words; at < spirv.size();) {
+    const uint32_t op = spirv[at] & 0xFFFFU;
+    const uint32_t words = spirv[at] >> 16U;
+    if (op == op_function || words == 0 || at + words > spirv.size()) break;
+    const std::span<const uint32_t> operands = spirv.subspan(at + 1, words - 1);
+    if (op == op_capability && operands[0] == capability_group_non_uniform) {
+      facts.uses_subgroups = true;
+    }
+    if (op == op_execution_mode && operands[1] == mode_local_size) facts.workgroup_x = operands[2];
+    at += words;
+  }
+  return facts;
+}
+
+}  // namespace
 
 Kernel::Kernel(const Device& device, std::span<const uint32_t> spirv, KernelInterface interface,
                const std::vector<Specialization>& constants, const std::string& name)
@@ -35,6 +68,17 @@ Kernel::Kernel(const Device& device, std::span<const uint32_t> spirv, KernelInte
   info.stage.pName = "main";
   info.stage.pSpecializationInfo = &specialization;
   info.layout = layout_.get();
+  // Kernels without subgroup operations are left to the driver, which may know a better size.
+  const ModuleFacts facts = facts_of(spirv);
+  const SubgroupChoice& subgroups = device.subgroups();
+  VkPipelineShaderStageRequiredSubgroupSizeCreateInfo size{
+      VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO};
+  size.requiredSubgroupSize = subgroups.size;
+  if (facts.uses_subgroups && subgroups.required) info.stage.pNext = &size;
+  // Vulkan allows to ask for full subgroups only where they divide the workgroup's x.
+  if (facts.uses_subgroups && subgroups.full && facts.workgroup_x % subgroups.size == 0) {
+    info.stage.flags |= VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
+  }
   TRISECT_VK(vkCreateComputePipelines(device.get(), device.pipeline_cache(), 1, &info, nullptr,
                                       pipeline_.fill(device.get())));
   device.name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, set_layout_.get(), name);

@@ -23,7 +23,8 @@ struct Specialization {
 class Kernel {
  public:
   // spirv: words with the entry point "main"; constants: those not named keep their defaults; name:
-  // for messages. Throws Error if the driver cannot compile it.
+  // for messages. If the kernel uses subgroup operations, its subgroups are those of
+  // device.subgroups(). Throws Error if the driver cannot compile it.
   Kernel(const Device& device, std::span<const uint32_t> spirv, KernelInterface interface,
          const std::vector<Specialization>& constants, const std::string& name);
 

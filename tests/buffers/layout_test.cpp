@@ -2,6 +2,7 @@
 // C++ gives them, and their bindings are those of the interfaces in app/buffers/kernels.h.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <set>
@@ -275,6 +276,64 @@ TEST(Layout, InterfaceIsTheKernels) {
                                                         {CONSTANT_DIVIDED, "DIVIDED"},
                                                         {CONSTANT_NONSMOOTH, "MAY_BE_NONSMOOTH"},
                                                         {CONSTANT_SHADOWS, "SHADOWS"}}));
+}
+
+// A module's variables in shared memory.
+class SharedMemory : public Compiler {
+ public:
+  explicit SharedMemory(std::span<const uint32_t> spirv)
+      : Compiler(std::vector<uint32_t>(spirv.begin(), spirv.end())) {}
+
+  [[nodiscard]] std::size_t bytes() const {
+    std::size_t sum = 0;
+    ir.for_each_typed_id<spirv_cross::SPIRVariable>([&](auto, const auto& variable) {
+      if (variable.storage != spv::StorageClassWorkgroup) return;
+      const spirv_cross::SPIRType& type = get_type(variable.basetype);
+      std::size_t bytes = std::size_t{type.width} / 8 * type.vecsize * type.columns;
+      for (const uint32_t length : type.array) bytes *= length;
+      EXPECT_NE(type.basetype, spirv_cross::SPIRType::Struct);
+      sum += bytes;
+    });
+    return sum;
+  }
+};
+
+// What a device is asked to have is what the largest of the kernels takes.
+TEST(Layout, NeedsOfADeviceAreThoseOfTheKernels) {
+  uint32_t invocations = 0;
+  uint32_t invocations_y = 0;
+  std::size_t shared_bytes = 0;
+  uint32_t storage_buffers = 0;
+  uint32_t uniform_buffers = 0;
+  uint32_t push_bytes = 0;
+  for (const KernelSource& source : kernel_sources()) {
+    const Compiler kernel = reflect(source.spirv);
+    if (kernel.get_execution_model() == spv::ExecutionModelGLCompute) {
+      const auto size = [&](uint32_t axis) {
+        return kernel.get_execution_mode_argument(spv::ExecutionModeLocalSize, axis);
+      };
+      invocations = std::max(invocations, size(0) * size(1) * size(2));
+      invocations_y = std::max(invocations_y, size(1));
+      EXPECT_EQ(size(2), 1U) << source.name;
+    }
+    shared_bytes = std::max(shared_bytes, SharedMemory(source.spirv).bytes());
+    const gpu::KernelInterface interface = interface_of(source.name);
+    const auto count = [&](VkDescriptorType type) {
+      const auto is_type = [type](const gpu::Binding& b) { return b.type == type; };
+      return static_cast<uint32_t>(
+          std::count_if(interface.bindings.begin(), interface.bindings.end(), is_type));
+    };
+    storage_buffers = std::max(storage_buffers, count(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER));
+    uniform_buffers = std::max(uniform_buffers, count(VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER));
+    push_bytes = std::max(push_bytes, interface.push_size);
+  }
+  using Needs = gpu::KernelNeeds;
+  EXPECT_EQ(invocations, uint32_t{Needs::kInvocations});
+  EXPECT_EQ(invocations_y, uint32_t{Needs::kInvocationsY});
+  EXPECT_EQ(shared_bytes, std::size_t{Needs::kSharedBytes});
+  EXPECT_EQ(storage_buffers, uint32_t{Needs::kStorageBuffers});
+  EXPECT_EQ(uniform_buffers, uint32_t{Needs::kUniformBuffers});
+  EXPECT_EQ(push_bytes, uint32_t{Needs::kPushBytes});
 }
 
 // No kernel of any interface binds a buffer, or takes push constants, that its interface lacks.

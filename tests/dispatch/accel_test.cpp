@@ -20,15 +20,16 @@ namespace {
 class Acceleration : public test::GpuTest {};
 
 // The accelerations, but for the list, that the device has.
-std::vector<Accel> fast_accels() {
+std::vector<Accel> fast_accels(const gpu::Device& device = test::validated_device()) {
   std::vector<Accel> accels{Accel::tiles, Accel::bvh};
-  if (test::validated_device().has_ray_query()) accels.push_back(Accel::rayquery);
+  if (device.has_ray_query()) accels.push_back(Accel::rayquery);
   return accels;
 }
 
 Frame trace(const BakedScene& scene, const TraceSettings& settings, Accel accel,
-            std::size_t buffer_limit = std::numeric_limits<std::size_t>::max()) {
-  VulkanTracer tracer(test::validated_device(), scene, settings.width, settings.height,
+            std::size_t buffer_limit = kNoLimit,
+            const gpu::Device& device = test::validated_device()) {
+  VulkanTracer tracer(device, scene, settings.width, settings.height,
                       {SOLVER_ROBUST, true, false, accel}, buffer_limit);
   Frame frame;
   tracer.render(make_params(scene, settings), frame);
@@ -54,7 +55,7 @@ void expect_equal(const Frame& a, const Frame& b, const std::string& what) {
 
 // Every acceleration against the list.
 void expect_all_equal(BakedScene scene, const TraceSettings& settings, const std::string& what,
-                      std::size_t buffer_limit = std::numeric_limits<std::size_t>::max()) {
+                      std::size_t buffer_limit = kNoLimit) {
   scene.bvh = build_bvh(scene);
   const Frame list = trace(scene, settings, Accel::list);
   for (const Accel accel : fast_accels()) {
@@ -139,6 +140,60 @@ TEST_F(Acceleration, RayQueriesAreThereOrRefused) {
                                         scene.bvh.size() * sizeof(BvhEntry));
   } else {
     EXPECT_THROW(VulkanTracer(test::validated_device(), scene, 8, 8, choice), gpu::Error);
+  }
+}
+
+// Subgroups of every size that the device lets kernels ask for, and none.
+TEST_F(Acceleration, WorksWithSubgroupsOfAnySize) {
+  BakedScene scene =
+      bake_with_subpatches(test::load_asset("teapot"), {SURFACE_PHONG, 0.65, SHELL_NORMAL});
+  scene.bvh = build_bvh(scene);
+  const TraceSettings settings = small(test::load_asset("teapot"), scene);
+  const Frame list = trace(scene, settings, Accel::list);
+  const gpu::Instance& instance = test::validated_instance();
+  const gpu::SubgroupSupport& support = test::validated_device().capabilities().subgroups;
+  std::vector<uint32_t> sizes = support.sizes();
+  sizes.push_back(0);
+  std::string tried;
+  for (const uint32_t size : sizes) {
+    const gpu::Device device(instance, "", VK_NULL_HANDLE, size);
+    ASSERT_EQ(device.subgroup_size(), size);
+    const std::string what = "subgroups of " + std::to_string(size);
+    tried += " " + std::to_string(size);
+    expect_equal(list, trace(scene, settings, Accel::bvh, kNoLimit, device), what + ", bvh");
+    if (size == 0) {
+      EXPECT_THROW(trace(scene, settings, Accel::tiles, kNoLimit, device), gpu::Error);
+    } else {
+      expect_equal(list, trace(scene, settings, Accel::tiles, kNoLimit, device), what + ", tiles");
+    }
+  }
+  RecordProperty("subgroup_sizes", tried);
+  EXPECT_THROW(gpu::Device(instance, "", VK_NULL_HANDLE, 3), gpu::Error);
+}
+
+// Of a device of Vulkan 1.1 all is by extensions, of a newer one much is not.
+TEST_F(Acceleration, WorksWithEveryVersionOfVulkan) {
+  BakedScene scene =
+      bake_with_subpatches(test::load_asset("teapot"), {SURFACE_PHONG, 0.65, SHELL_NORMAL});
+  scene.bvh = build_bvh(scene);
+  const TraceSettings settings = small(test::load_asset("teapot"), scene);
+  const std::size_t limit = scene.triangles.size() * sizeof(Triangle) - 1;
+  const Frame list = trace(scene, settings, Accel::list);
+  for (const uint32_t version : {VK_API_VERSION_1_1, VK_API_VERSION_1_2, VK_API_VERSION_1_3}) {
+    const gpu::Instance instance(true, {}, version);
+    {
+      const gpu::Device device(instance, "");
+      const std::string what = "Vulkan 1." + std::to_string(VK_API_VERSION_MINOR(version));
+      EXPECT_LE(device.capabilities().version, version);
+      for (const Accel accel : fast_accels(device)) {
+        const Frame frame = trace(scene, settings, accel, kNoLimit, device);
+        expect_equal(list, frame, what + ", " + accel_name(accel));
+      }
+      if (device.has_addresses()) {
+        expect_equal(list, trace(scene, settings, Accel::bvh, limit, device), what + ", addresses");
+      }
+    }
+    for (const std::string& message : instance.log().messages()) ADD_FAILURE() << message;
   }
 }
 
