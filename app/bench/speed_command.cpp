@@ -84,7 +84,7 @@ class Race {
                          thesis_params_),
         &*thesis_check_, thesis_ms);
     add_robust(device, "list, robust", Accel::list, bake_ms);
-    add_robust(device, "tiles, robust", Accel::tiles, bake_ms);
+    if (device.subgroup_size() != 0) add_robust(device, "tiles, robust", Accel::tiles, bake_ms);
     add_robust(device, "bvh, robust", Accel::bvh, bvh_ms);
     if (device.has_ray_query()) {
       add_robust(device, "rayquery, robust", Accel::rayquery, bvh_ms);

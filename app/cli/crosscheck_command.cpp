@@ -33,8 +33,7 @@ int crosscheck(const CrosscheckOptions& options) {
   LoadedScene loaded = load_scene(render);
   std::vector<TraceResult> results;
   for (const Backend backend : options.backends) {
-    const Accel accel =
-        chosen_accel(accel_request(render), backend, loaded.scene.subpatches.size());
+    const Accel accel = accel_for(render, backend, loaded.scene);
     if (needs_bvh(accel, render.shadows)) add_bvh(loaded);
     results.push_back(trace_showing_progress(
         {backend, render.gl_path, render.device, false, 1, false, cache_folder()}, loaded.scene,

@@ -12,6 +12,7 @@
 #include "app/cli/progress_line.h"
 #include "app/frame/supersampling.h"
 #include "app/mesh/mesh_builder.h"
+#include "vk/instance.h"
 
 namespace trisect {
 namespace {
@@ -29,10 +30,20 @@ auto timed(const std::string& name, double& ms, Step&& step) {
 
 }  // namespace
 
-AccelRequest accel_request(const RenderOptions& options) {
+AccelRequest accel_request(const RenderOptions& options, bool subgroups) {
   const uint32_t side = samples_across(options.spp);
-  return {options.accel, options.solver, options.shadows, options.width * side,
-          options.height * side};
+  return {options.accel,        options.solver,        options.shadows,
+          options.width * side, options.height * side, subgroups};
+}
+
+Accel accel_for(const RenderOptions& options, Backend backend, const BakedScene& scene) {
+  const std::size_t subpatches = scene.subpatches.size();
+  const Accel accel = chosen_accel(accel_request(options, true), backend, subpatches);
+  if (options.accel || accel != Accel::tiles) return accel;
+  const gpu::Instance instance(false);
+  const std::size_t index = gpu::choose_device(instance.reports(), options.device);
+  const bool subgroups = instance.devices()[index].subgroups.size != 0;
+  return chosen_accel(accel_request(options, subgroups), backend, subpatches);
 }
 
 TraceSettings settings_of(const RenderOptions& options, const Mesh& mesh, const BakedScene& scene) {

@@ -11,8 +11,13 @@
 
 namespace trisect {
 
-// What the choice of the acceleration depends on.
-AccelRequest accel_request(const RenderOptions& options);
+// What the choice of the acceleration depends on. subgroups: whether the device has their
+// operations; it makes no difference if the options name the acceleration.
+AccelRequest accel_request(const RenderOptions& options, bool subgroups);
+
+// The acceleration for a scene on that back end. Throws NoDevice if it is the device's to choose
+// and no device fits, UsageError if the options ask for what is not possible.
+Accel accel_for(const RenderOptions& options, Backend backend, const BakedScene& scene);
 
 // Throws UsageError if the image has too many rays a side.
 TraceSettings settings_of(const RenderOptions& options, const Mesh& mesh, const BakedScene& scene);

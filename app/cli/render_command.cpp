@@ -45,8 +45,7 @@ int render(const RenderOptions& options) {
   const ImageFormat format = image_format(options.output);
   expect_distinct(options);
   LoadedScene loaded = load_scene(options);
-  const Accel accel =
-      chosen_accel(accel_request(options), options.backend, loaded.scene.subpatches.size());
+  const Accel accel = accel_for(options, options.backend, loaded.scene);
   if (needs_bvh(accel, options.shadows)) add_bvh(loaded);
 
   AtomicFile image(options.output);

@@ -25,8 +25,8 @@ Accel chosen_accel(const AccelRequest& request, Backend backend, std::size_t sub
     if (!can_accelerate) return Accel::list;
     const std::size_t tiles_of_image =
         std::size_t{tiles_across(request.width)} * tiles_across(request.height);
-    return tiles_fit && subpatches <= kSubpatchesOfTile * tiles_of_image ? Accel::tiles
-                                                                         : Accel::bvh;
+    const bool tiles_pay = tiles_fit && subpatches <= kSubpatchesOfTile * tiles_of_image;
+    return request.subgroups && tiles_pay ? Accel::tiles : Accel::bvh;
   }
   if (*request.accel != Accel::list && !can_accelerate) {
     throw UsageError(fmt::format("--accel {}: it needs --backend vulkan and --solver robust.",

@@ -19,12 +19,15 @@ struct AccelRequest {
   bool shadows = false;
   uint32_t width = 800;  // of the image in rays
   uint32_t height = 600;
+  bool subgroups =
+      true;  // the device has subgroup operations: gpu::Device::subgroup_size() is not 0
 };
 
 // The acceleration that the user asks for. If the user leaves it open, the one that is likely to be
 // the fastest for a scene of so many subpatches: tiles, or the BVH if there are more than four
-// subpatches per tile of the image; the list where neither is possible. Throws UsageError if what
-// the user asks for is not possible with this back end, solver and number of subpatches.
+// subpatches per tile of the image or the device lacks the subgroup operations that tiles need; the
+// list where neither is possible. Throws UsageError if what the user asks for is not possible with
+// this back end, solver and number of subpatches; whether the device can do it is not looked at.
 Accel chosen_accel(const AccelRequest& request, Backend backend, std::size_t subpatches);
 
 // Whether the frame's rays traverse the scene's BVH: all of them, or with tiles the shadow rays.

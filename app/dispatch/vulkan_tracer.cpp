@@ -36,7 +36,7 @@ std::optional<TileLists> lists_for(const gpu::Device& device, const BakedScene& 
   if (choice.accel != Accel::tiles) return std::nullopt;
   if (device.subgroup_size() == 0) {
     throw DeviceError(device.report().name +
-                      " lacks the subgroup operations of --accel tiles; use --accel list.");
+                      " lacks the subgroup operations of --accel tiles; use --accel bvh.");
   }
   return std::optional<TileLists>(std::in_place, device, constants_of(scene, choice), code,
                                   static_cast<uint32_t>(scene.subpatches.size()), width, band_rows);

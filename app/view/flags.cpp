@@ -91,7 +91,7 @@ RenderOptions with_flags(const RenderOptions& base, const std::string& text) {
   }
   parse_scene(scene, options);
   // Refuses options that do not go together, whatever the model.
-  chosen_accel(accel_request(options), Backend::vulkan, 1);
+  chosen_accel(accel_request(options, true), Backend::vulkan, 1);
   return options;
 }
 

@@ -15,11 +15,12 @@ void save_picture(const gpu::Device& device, const Mesh& mesh, const BakedScene&
                   const RenderOptions& options, const std::string& file) {
   const ImageFormat format = image_format(file);
   AtomicFile target(file);
+  const AccelRequest request = accel_request(options, device.subgroup_size() != 0);
   const TraceParams params = make_params(scene, settings_of(options, mesh, scene));
   VulkanTracer tracer(device, scene, params.width, params.height,
                       {.solver = options.solver,
                        .aovs = format == ImageFormat::exr,
-                       .accel = accel_at_hand(accel_request(options), scene),
+                       .accel = accel_at_hand(request, scene),
                        .shadows = options.shadows});
   Frame frame;
   tracer.render(params, frame);

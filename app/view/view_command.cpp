@@ -19,7 +19,7 @@ namespace trisect {
 int view_model(const ViewOptions& options) {
   if (!options.screenshot.empty()) image_format(options.screenshot);
   // Refuses options that do not go together, whatever the model, before a window opens.
-  chosen_accel(accel_request(options.render), Backend::vulkan, 1);
+  chosen_accel(accel_request(options.render, true), Backend::vulkan, 1);
   std::vector<view::ScriptStep> script;
   if (!options.script.empty()) script = view::read_script(options.script);
   std::optional<AtomicFile> stats;

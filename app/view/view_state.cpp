@@ -26,7 +26,10 @@ std::vector<std::string> models_in(const std::filesystem::path& folder) {
 }  // namespace
 
 ViewState::ViewState(const ViewOptions& options, const gpu::Device& device)
-    : model(cache_folder()), camera(Clock::now()), kernels(options.shaders) {
+    : model(cache_folder()),
+      camera(Clock::now()),
+      kernels(options.shaders),
+      has_subgroups_(device.subgroup_size() != 0) {
   settings.render = options.render;
   settings.frame_ms = options.frame_ms;
   facts.device = device.report().name;
@@ -70,7 +73,7 @@ KernelChoice ViewState::kernel_choice(uint32_t width, uint32_t height) const {
   choice.aovs = needs_aovs || choice.counts;
   choice.shadows = render.shadows;
   // The scene's tree may still be loading; until then the list does.
-  choice.accel = accel_at_hand(accel_request(render), model.scene());
+  choice.accel = accel_at_hand(accel_request(render, has_subgroups_), model.scene());
   return choice;
 }
 

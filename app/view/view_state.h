@@ -39,6 +39,9 @@ struct ViewState {
   LoadedModel model;
   CameraControl camera;
   KernelSource kernels;
+
+ private:
+  bool has_subgroups_;  // the device has their operations
 };
 
 }  // namespace trisect::view

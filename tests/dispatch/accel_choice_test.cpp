@@ -1,0 +1,50 @@
+// Which acceleration the program takes where the user leaves it open, and what it refuses.
+#include <gtest/gtest.h>
+
+#include "app/base/error.h"
+#include "app/dispatch/accel.h"
+
+namespace trisect {
+namespace {
+
+// Tiles of an image of 800x600.
+constexpr std::size_t kTiles = std::size_t{100} * 75;
+
+Accel chosen(const AccelRequest& request, std::size_t subpatches) {
+  return chosen_accel(request, Backend::vulkan, subpatches);
+}
+
+TEST(ChosenAccel, IsTilesOrTheTreeByTheNumberOfSubpatches) {
+  EXPECT_EQ(chosen({}, 4 * kTiles), Accel::tiles);
+  EXPECT_EQ(chosen({}, 4 * kTiles + 1), Accel::bvh);
+}
+
+TEST(ChosenAccel, IsTheTreeOnADeviceWithoutSubgroupOperations) {
+  EXPECT_EQ(chosen({.subgroups = false}, 1), Accel::bvh);
+  EXPECT_EQ(chosen({.subgroups = false}, 4 * kTiles + 1), Accel::bvh);
+  // Rays go down the tree one by one there, by a kernel that needs no subgroups.
+  EXPECT_EQ(tracing_kernels(Accel::bvh, 0, false), (std::vector<const char*>{"trace_bvh"}));
+  // The user's own choice stays, for the tracer to refuse.
+  EXPECT_EQ(chosen({.accel = Accel::tiles, .subgroups = false}, 1), Accel::tiles);
+}
+
+TEST(ChosenAccel, IsTheListForTheBisectionAndOtherBackEnds) {
+  EXPECT_EQ(chosen({.solver = SOLVER_BISECT}, 1), Accel::list);
+  for (const Backend backend : {Backend::opengl, Backend::cpu, Backend::oracle}) {
+    EXPECT_EQ(chosen_accel({}, backend, 1), Accel::list);
+    EXPECT_THROW(chosen_accel({.accel = Accel::bvh}, backend, 1), UsageError);
+  }
+  EXPECT_THROW(chosen({.accel = Accel::tiles, .solver = SOLVER_BISECT}, 1), UsageError);
+}
+
+TEST(AccelAtHand, IsTheListUntilTheTreeIsThere) {
+  BakedScene scene;
+  scene.subpatches.resize(1);
+  EXPECT_EQ(accel_at_hand({}, scene), Accel::tiles);
+  EXPECT_EQ(accel_at_hand({.subgroups = false}, scene), Accel::list);
+  scene.bvh.resize(8);
+  EXPECT_EQ(accel_at_hand({.subgroups = false}, scene), Accel::bvh);
+}
+
+}  // namespace
+}  // namespace trisect
