@@ -2,7 +2,8 @@
 // surface. Colours are sRGB-encoded as they stand, not linear light, because the thesis's window shows them unchanged.
 
 vec3 sky(vec3 view) {
-  return mix(vec3(1.0, 0.7, 0.5), vec3(0.8, 0.9, 1.0), sqrt(abs(view.y)));
+  real up = sqrt(abs(view.y));
+  return vec3(1.0, 0.7, 0.5) * (real(1.0) - up) + vec3(0.8, 0.9, 1.0) * up;
 }
 
 real Lambert(vec3 normal, vec3 light) { return max(dot3(normalize3(normal), light), real(0.0)); }

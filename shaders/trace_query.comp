@@ -28,7 +28,7 @@ bool traverse_query(PixelRay ray, inout Traversal traversal) {
   float end = min(ray.frame.stretch * traversal.hit.z, middle + addresses.scene_radius);
   if (!(begin < end)) return true;
   // Boxes beyond the nearest hit by less than this rounding error may still hold a hit at the same depth.
-  float slack = BVH_SLACK * (addresses.scene_radius + length(ray.anchor));
+  float slack = BVH_SLACK * (addresses.scene_radius + length3(ray.anchor));
   float limit = end - begin + slack;
   rayQueryEXT query;
   rayQueryInitializeEXT(query, accelerationStructureEXT(uvec2(addresses.boxes_low, addresses.boxes_high)),

@@ -233,11 +233,15 @@ Capabilities capabilities_of(VkPhysicalDevice device, uint32_t instance_version)
 
   if (offers(found, kDriverProperties)) {
     found.driver = std::string(driver.driverName) + ", " + driver.driverInfo;
+    found.wants_frozen_constants = driver.driverID == VK_DRIVER_ID_GOOGLE_SWIFTSHADER;
   }
   found.subgroups = subgroups_of(subgroups, subgroup_control, subgroup_sizes);
-  found.floats = {floats.shaderRoundingModeRTEFloat32 == VK_TRUE,
-                  floats.shaderSignedZeroInfNanPreserveFloat32 == VK_TRUE,
-                  floats.shaderDenormPreserveFloat32 == VK_TRUE};
+  // Without independence a module must declare the modes of all widths alike.
+  constexpr auto none = VK_SHADER_FLOAT_CONTROLS_INDEPENDENCE_NONE;
+  found.floats = {
+      floats.shaderRoundingModeRTEFloat32 == VK_TRUE && floats.roundingModeIndependence != none,
+      floats.shaderSignedZeroInfNanPreserveFloat32 == VK_TRUE,
+      floats.shaderDenormPreserveFloat32 == VK_TRUE && floats.denormBehaviorIndependence != none};
   found.buffer_addresses = addresses.bufferDeviceAddress == VK_TRUE;
   found.ray_queries = found.buffer_addresses && queries.rayQuery == VK_TRUE &&
                       structures.accelerationStructure == VK_TRUE;

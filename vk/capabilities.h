@@ -79,6 +79,9 @@ struct Capabilities {
   // What follows is false or 0 for a device of Vulkan 1.0, which cannot be used.
   SubgroupSupport subgroups;
   FloatControls floats;
+  // SwiftShader compiles the code that specialisation constants rule out, too: a kernel takes it
+  // half the time if they are plain constants before. Other drivers gain nothing.
+  bool wants_frozen_constants = false;
   bool buffer_addresses = false;
   bool ray_queries = false;
   VkDeviceSize scratch_alignment = 1;  // of builds of acceleration structures; if ray_queries

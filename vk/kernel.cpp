@@ -1,56 +1,25 @@
 #include "vk/kernel.h"
 
-#include <cstddef>
 #include <string>
 #include <utility>
 
 #include "vk/result.h"
 
 namespace trisect::gpu {
-namespace {
-
-// What the pipeline must know of a module.
-struct ModuleFacts {
-  bool uses_subgroups = false;  // their operations
-  uint32_t workgroup_x = 0;     // invocations of a workgroup along x
-};
-
-ModuleFacts facts_of(std::span<const uint32_t> spirv) {
-  // SPIR-V's numbers of instructions and of their operands.
-  constexpr uint32_t op_execution_mode = 16;
-  constexpr uint32_t op_capability = 17;
-  constexpr uint32_t op_function = 54;
-  constexpr uint32_t mode_local_size = 17;
-  constexpr uint32_t capability_group_non_uniform = 61;
-  constexpr std::size_t header_words = 5;
-  ModuleFacts facts;
-  for (std::size_t at = header_words; at < spirv.size();) {
-    const uint32_t op = spirv[at] & 0xFFFFU;
-    const uint32_t words = spirv[at] >> 16U;
-    if (op == op_function || words == 0 || at + words > spirv.size()) break;
-    const std::span<const uint32_t> operands = spirv.subspan(at + 1, words - 1);
-    if (op == op_capability && operands[0] == capability_group_non_uniform) {
-      facts.uses_subgroups = true;
-    }
-    if (op == op_execution_mode && operands[1] == mode_local_size) facts.workgroup_x = operands[2];
-    at += words;
-  }
-  return facts;
-}
-
-}  // namespace
-
 Kernel::Kernel(const Device& device, std::span<const uint32_t> spirv, KernelInterface interface,
                const std::vector<Specialization>& constants, const std::string& name)
     : interface_(std::move(interface)) {
   constexpr VkShaderStageFlags stage = VK_SHADER_STAGE_COMPUTE_BIT;
   set_layout_ = make_set_layout(device, interface_, stage);
   layout_ = make_pipeline_layout(device, set_layout_.get(), interface_, stage);
-  const ShaderModule module = make_shader_module(device, spirv);
+  const bool frozen = device.capabilities().wants_frozen_constants;
+  const ShaderModule module =
+      frozen ? make_shader_module(device, with_frozen_constants(spirv, constants))
+             : make_shader_module(device, spirv);
 
   std::vector<VkSpecializationMapEntry> entries;
   std::vector<uint32_t> values;
-  for (const Specialization& constant : constants) {
+  for (const Specialization& constant : frozen ? std::vector<Specialization>{} : constants) {
     const auto offset = static_cast<uint32_t>(values.size() * sizeof(uint32_t));
     entries.push_back({constant.constant_id, offset, sizeof(uint32_t)});
     values.push_back(constant.value);
@@ -69,7 +38,7 @@ Kernel::Kernel(const Device& device, std::span<const uint32_t> spirv, KernelInte
   info.stage.pSpecializationInfo = &specialization;
   info.layout = layout_.get();
   // Kernels without subgroup operations are left to the driver, which may know a better size.
-  const ModuleFacts facts = facts_of(spirv);
+  const KernelFacts facts = facts_of(spirv);
   const SubgroupChoice& subgroups = device.subgroups();
   VkPipelineShaderStageRequiredSubgroupSizeCreateInfo size{
       VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO};

@@ -10,14 +10,9 @@
 #include "vk/device.h"
 #include "vk/layout.h"
 #include "vk/owned.h"
+#include "vk/shader_code.h"
 
 namespace trisect::gpu {
-
-// The value of a specialisation constant; a bool is 0 or 1.
-struct Specialization {
-  uint32_t constant_id;
-  uint32_t value;
-};
 
 // A compute pipeline with its layouts. The device must outlive it.
 class Kernel {

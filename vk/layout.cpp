@@ -4,13 +4,16 @@
 #include <string>
 
 #include "vk/result.h"
+#include "vk/shader_code.h"
 
 namespace trisect::gpu {
 
 ShaderModule make_shader_module(const Device& device, std::span<const uint32_t> spirv) {
+  const ShaderCode code =
+      with_float_controls(with_exact_floats(spirv), device.capabilities().floats);
   VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-  info.codeSize = spirv.size_bytes();
-  info.pCode = spirv.data();
+  info.codeSize = code.size() * sizeof(uint32_t);
+  info.pCode = code.data();
   ShaderModule module;
   TRISECT_VK(vkCreateShaderModule(device.get(), &info, nullptr, module.fill(device.get())));
   return module;

@@ -28,6 +28,7 @@ using SetLayout = Owned<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout>;
 using PipelineLayout = Owned<VkPipelineLayout, vkDestroyPipelineLayout>;
 using DescriptorPool = Owned<VkDescriptorPool, vkDestroyDescriptorPool>;
 
+// Its floats are exact, see with_exact_floats() and with_float_controls().
 ShaderModule make_shader_module(const Device& device, std::span<const uint32_t> spirv);
 SetLayout make_set_layout(const Device& device, const KernelInterface& interface,
                           VkShaderStageFlags stage);

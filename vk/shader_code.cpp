@@ -1,0 +1,223 @@
+#include "vk/shader_code.h"
+
+#include <algorithm>
+#include <array>
+#include <spirv-tools/optimizer.hpp>
+#include <spirv/unified1/spirv.hpp11>
+#include <stdexcept>
+#include <string>
+#include <unordered_map>
+
+namespace trisect::gpu {
+namespace {
+
+using spv::Op;
+
+constexpr std::size_t kHeaderWords = 5;
+constexpr std::size_t kBoundWord = 3;
+
+// An instruction of a module: its words, the first of which is the opcode with the number of words.
+using Instruction = std::span<const uint32_t>;
+
+Op opcode(Instruction instruction) {
+  return static_cast<Op>(instruction[0] & 0xFFFFU);
+}
+
+// Calls visit(instruction) for each instruction, in order.
+template <typename Visit>
+void for_each_instruction(std::span<const uint32_t> spirv, const Visit& visit) {
+  for (std::size_t at = kHeaderWords; at < spirv.size();) {
+    const std::size_t count = spirv[at] >> 16U;
+    if (count == 0 || at + count > spirv.size())
+      throw std::logic_error("a SPIR-V module is cut off");
+    visit(spirv.subspan(at, count));
+    at += count;
+  }
+}
+
+// The parts of a module, in the order that the specification gives them (2.4, logical layout of a
+// module), as far as they matter here.
+enum class Section { capabilities, extensions, declarations, execution_modes, annotations, rest };
+
+Section section_of(Op op) {
+  switch (op) {
+    case Op::OpCapability:
+      return Section::capabilities;
+    case Op::OpExtension:
+      return Section::extensions;
+    case Op::OpExtInstImport:
+    case Op::OpMemoryModel:
+    case Op::OpEntryPoint:
+      return Section::declarations;
+    case Op::OpExecutionMode:
+    case Op::OpExecutionModeId:
+      return Section::execution_modes;
+    case Op::OpString:
+    case Op::OpSource:
+    case Op::OpSourceContinued:
+    case Op::OpSourceExtension:
+    case Op::OpName:
+    case Op::OpMemberName:
+    case Op::OpModuleProcessed:
+    case Op::OpDecorate:
+    case Op::OpMemberDecorate:
+    case Op::OpDecorationGroup:
+    case Op::OpGroupDecorate:
+    case Op::OpGroupMemberDecorate:
+    case Op::OpDecorateId:
+    case Op::OpDecorateString:
+    case Op::OpMemberDecorateString:
+      return Section::annotations;
+    default:
+      return Section::rest;
+  }
+}
+
+// Instructions to be added at the end of a section.
+using Additions = std::array<ShaderCode, 6>;
+
+void add(Additions& additions, Section section, Op op, std::initializer_list<uint32_t> operands) {
+  ShaderCode& words = additions[static_cast<std::size_t>(section)];
+  words.push_back(static_cast<uint32_t>(op) | static_cast<uint32_t>(operands.size() + 1) << 16U);
+  words.insert(words.end(), operands);
+}
+
+ShaderCode with_additions(std::span<const uint32_t> spirv, const Additions& additions) {
+  ShaderCode out(spirv.begin(), spirv.begin() + kHeaderWords);
+  std::size_t section = 0;
+  const auto leave_sections_before = [&](std::size_t end) {
+    for (; section < end; ++section) {
+      out.insert(out.end(), additions[section].begin(), additions[section].end());
+    }
+  };
+  for_each_instruction(spirv, [&](Instruction instruction) {
+    leave_sections_before(static_cast<std::size_t>(section_of(opcode(instruction))));
+    out.insert(out.end(), instruction.begin(), instruction.end());
+  });
+  return out;
+}
+
+// Whether it rounds a float, so that a driver may do it another way without NoContraction. Negation
+// does not round.
+bool rounds_floats(Op op) {
+  switch (op) {
+    case Op::OpFAdd:
+    case Op::OpFSub:
+    case Op::OpFMul:
+    case Op::OpFDiv:
+    case Op::OpFRem:
+    case Op::OpFMod:
+    case Op::OpVectorTimesScalar:
+    case Op::OpMatrixTimesScalar:
+    case Op::OpVectorTimesMatrix:
+    case Op::OpMatrixTimesVector:
+    case Op::OpMatrixTimesMatrix:
+    case Op::OpOuterProduct:
+    case Op::OpDot:
+      return true;
+    default:
+      return false;
+  }
+}
+
+// The characters of a literal string as words, with the zero that ends it.
+ShaderCode literal(const std::string& text) {
+  ShaderCode words(text.size() / 4 + 1, 0);
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    words[i / 4] |= static_cast<uint32_t>(static_cast<unsigned char>(text[i])) << (8U * (i % 4));
+  }
+  return words;
+}
+
+}  // namespace
+
+KernelFacts facts_of(std::span<const uint32_t> spirv) {
+  KernelFacts facts;
+  for_each_instruction(spirv, [&](Instruction instruction) {
+    if (opcode(instruction) == Op::OpCapability &&
+        static_cast<spv::Capability>(instruction[1]) == spv::Capability::GroupNonUniform) {
+      facts.uses_subgroups = true;
+    }
+    if (opcode(instruction) == Op::OpExecutionMode &&
+        static_cast<spv::ExecutionMode>(instruction[2]) == spv::ExecutionMode::LocalSize) {
+      facts.workgroup_x = instruction[3];
+    }
+  });
+  return facts;
+}
+
+ShaderCode with_exact_floats(std::span<const uint32_t> spirv) {
+  constexpr auto exact = static_cast<uint32_t>(spv::Decoration::NoContraction);
+  std::vector<bool> decorated(spirv[kBoundWord], false);
+  Additions additions;
+  for_each_instruction(spirv, [&](Instruction instruction) {
+    const Op op = opcode(instruction);
+    if (op == Op::OpDecorate && instruction[2] == exact) decorated[instruction[1]] = true;
+    if (rounds_floats(op) && !decorated[instruction[2]]) {
+      add(additions, Section::annotations, Op::OpDecorate, {instruction[2], exact});
+    }
+  });
+  return with_additions(spirv, additions);
+}
+
+ShaderCode with_float_controls(std::span<const uint32_t> spirv, const FloatControls& controls) {
+  struct Mode {
+    bool has;
+    spv::Capability capability;
+    spv::ExecutionMode mode;
+  };
+  const std::array modes{
+      Mode{controls.rounds_to_nearest_even, spv::Capability::RoundingModeRTE,
+           spv::ExecutionMode::RoundingModeRTE},
+      Mode{controls.preserves_signed_zero_inf_nan, spv::Capability::SignedZeroInfNanPreserve,
+           spv::ExecutionMode::SignedZeroInfNanPreserve},
+      Mode{controls.preserves_denormals, spv::Capability::DenormPreserve,
+           spv::ExecutionMode::DenormPreserve}};
+  if (std::none_of(modes.begin(), modes.end(), [](const Mode& mode) { return mode.has; })) {
+    return {spirv.begin(), spirv.end()};
+  }
+  Additions additions;
+  ShaderCode& extensions = additions[static_cast<std::size_t>(Section::extensions)];
+  extensions = literal("SPV_KHR_float_controls");
+  extensions.insert(extensions.begin(), static_cast<uint32_t>(Op::OpExtension) |
+                                            static_cast<uint32_t>(extensions.size() + 1) << 16U);
+  for (const Mode& mode : modes) {
+    if (!mode.has) continue;
+    add(additions, Section::capabilities, Op::OpCapability,
+        {static_cast<uint32_t>(mode.capability)});
+    for_each_instruction(spirv, [&](Instruction instruction) {
+      if (opcode(instruction) != Op::OpEntryPoint) return;
+      add(additions, Section::execution_modes, Op::OpExecutionMode,
+          {instruction[2], static_cast<uint32_t>(mode.mode), 32U});
+    });
+  }
+  return with_additions(spirv, additions);
+}
+
+ShaderCode with_frozen_constants(std::span<const uint32_t> spirv,
+                                 const std::vector<Specialization>& constants) {
+  std::unordered_map<uint32_t, std::vector<uint32_t>> values;
+  for (const Specialization& constant : constants) {
+    values[constant.constant_id] = {constant.value};
+  }
+  std::string messages;
+  spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_1_SPIRV_1_4);
+  optimizer.SetMessageConsumer([&](spv_message_level_t, const char*, const spv_position_t&,
+                                   const char* message) { messages += message; });
+  optimizer.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(values))
+      .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
+      .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass())
+      .RegisterPass(spvtools::CreateDeadBranchElimPass())
+      .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
+      .RegisterPass(spvtools::CreateAggressiveDCEPass());
+  spvtools::OptimizerOptions options;
+  // The build has validated the module.
+  options.set_run_validator(false);
+  ShaderCode frozen;
+  if (!optimizer.Run(spirv.data(), spirv.size(), &frozen, options)) {
+    throw std::runtime_error("SPIRV-Tools did not freeze the constants of a shader: " + messages);
+  }
+  return frozen;
+}
+
+}  // namespace trisect::gpu
