@@ -69,6 +69,10 @@ ProgramRun run_trisect(const std::vector<std::string>& arguments,
   return run(arguments, environment, 0);
 }
 
+std::vector<std::string> layer_environment(const std::string& layer) {
+  return {"VK_ADD_LAYER_PATH=" TRISECT_LAYERS, "VK_INSTANCE_LAYERS=VK_LAYER_TRISECT_" + layer};
+}
+
 ProgramRun interrupt_trisect(const std::vector<std::string>& arguments, int after_ms) {
   return run(arguments, {}, after_ms);
 }

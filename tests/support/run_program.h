@@ -16,6 +16,9 @@ struct ProgramRun {
 ProgramRun run_trisect(const std::vector<std::string>& arguments,
                        const std::vector<std::string>& environment = {});
 
+// The environment under which a program's calls of Vulkan go through a layer of tests/layer.
+std::vector<std::string> layer_environment(const std::string& layer);
+
 // Starts it, sends it SIGINT after so many milliseconds, and waits.
 ProgramRun interrupt_trisect(const std::vector<std::string>& arguments, int after_ms);
 
