@@ -1,12 +1,20 @@
 #include "tests/support/gpu.h"
 
+#include <cstdlib>
+#include <string_view>
+
 #include "app/bake/subpatch_bounds.h"
 #include "app/dispatch/vulkan_tracer.h"
 
 namespace trisect::test {
 
+bool validates() {
+  const char* value = std::getenv("TRISECT_TEST_VALIDATION");
+  return value == nullptr || std::string_view(value) != "0";
+}
+
 const gpu::Instance& validated_instance() {
-  static const gpu::Instance instance(true);
+  static const gpu::Instance instance(validates());
   return instance;
 }
 

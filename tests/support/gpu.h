@@ -1,5 +1,6 @@
 // One Vulkan device for all GPU tests of a process, under the validation layer with
-// synchronisation.
+// synchronisation. With TRISECT_TEST_VALIDATION=0 in the environment there is no layer, for
+// machines where none can be installed; without it a missing layer is a failure.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,6 +11,9 @@
 #include "vk/device.h"
 
 namespace trisect::test {
+
+// Whether tests run under the layer.
+bool validates();
 
 // Without a device, or without the layer, this throws: the test fails and does not pass by.
 const gpu::Instance& validated_instance();

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <stdexcept>
 #include <thread>
 
@@ -23,7 +24,10 @@ ProgramRun run(const std::vector<std::string>& arguments,
   const std::string out = folder / "out";
   const std::string err = folder / "err";
 
-  std::vector<std::string> words{TRISECT_PROGRAM};
+  // The program lies beside the test.
+  const std::string program =
+      std::filesystem::read_symlink("/proc/self/exe").replace_filename("trisect").string();
+  std::vector<std::string> words{program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   argv.reserve(words.size() + 1);
@@ -49,9 +53,9 @@ ProgramRun run(const std::vector<std::string>& arguments,
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), flags, 0600);
   pid_t child = 0;
   const int spawned =
-      posix_spawn(&child, TRISECT_PROGRAM, &actions, nullptr, argv.data(), envp.data());
+      posix_spawn(&child, program.c_str(), &actions, nullptr, argv.data(), envp.data());
   posix_spawn_file_actions_destroy(&actions);
-  if (spawned != 0) throw std::runtime_error("cannot start " TRISECT_PROGRAM);
+  if (spawned != 0) throw std::runtime_error("cannot start " + program);
   if (interrupt_after_ms > 0) {
     std::this_thread::sleep_for(std::chrono::milliseconds(interrupt_after_ms));
     kill(child, SIGINT);

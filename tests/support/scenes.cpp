@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "app/cli/data_folder.h"
 #include "app/mesh/mesh_builder.h"
 
 namespace trisect::test {
@@ -20,7 +21,7 @@ const std::vector<std::string>& asset_names() {
 }
 
 std::string asset_path(const std::string& name) {
-  return TRISECT_ASSETS "/" + name + ".obj";
+  return (data_folder("assets", TRISECT_ASSETS) / (name + ".obj")).string();
 }
 
 Mesh load_asset(const std::string& name) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/cli/data_folder.h"
 #include "app/frame/srgb.h"
 #include "app/picture/image_file.h"
 #include "tests/support/exr_reader.h"
@@ -54,7 +55,7 @@ std::string complaint(const Frame& kept, Frame frame) {
 TEST_P(GoldenFrame, IsReproduced) {
   const Golden& golden = GetParam();
   const std::string name = std::string(golden.model) + "-" + golden.surface_name + ".exr";
-  EXPECT_EQ(complaint(test::read_exr(std::filesystem::path(TRISECT_GOLDEN) / name), fresh(golden)),
+  EXPECT_EQ(complaint(test::read_exr(data_folder("golden", TRISECT_GOLDEN) / name), fresh(golden)),
             "");
 }
 
@@ -75,7 +76,7 @@ class GoldenComparison : public test::GpuTest {};
 
 TEST_F(GoldenComparison, NoticesOnePixel) {
   const Golden golden{"sphere-20", SURFACE_PHONG, "phong"};
-  const Frame kept = test::read_exr(std::filesystem::path(TRISECT_GOLDEN) / "sphere-20-phong.exr");
+  const Frame kept = test::read_exr(data_folder("golden", TRISECT_GOLDEN) / "sphere-20-phong.exr");
   const Frame rendered = fresh(golden);
   const std::size_t middle = 18 * 48 + 24;
   ASSERT_NE(rendered.aovs[middle].triangle, NO_TRIANGLE);

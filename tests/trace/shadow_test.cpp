@@ -10,6 +10,7 @@
 
 #include "app/bake/bvh.h"
 #include "app/bake/subpatch_bounds.h"
+#include "app/cli/data_folder.h"
 #include "app/cli/options.h"
 #include "app/dispatch/cpu_tracer.h"
 #include "app/dispatch/vulkan_tracer.h"
@@ -233,7 +234,7 @@ TEST_F(Terminator, OfASphere) {
 
 TEST_F(Terminator, OfATeapot) {
   // The reference has 4000 curved triangles.
-  const std::string path = std::string(TRISECT_GENERATED_ASSETS) + "/teapot-4000.obj";
+  const std::string path = data_folder("assets", TRISECT_GENERATED_ASSETS) / "teapot-4000.obj";
   const Mesh mesh = build_mesh(read_obj(path), path, std::nullopt).mesh;
   const Frame fine = trace(lit_from_side(mesh, kPhong, 400, 300), with_shadows(Accel::bvh));
   const auto lit_there = [&](const Lit&, std::size_t i) {
