@@ -76,6 +76,9 @@ void CommandLine::add_pareto() {
                   "Show the table of this file, which trisect hardcases --json wrote")
       ->check(not_empty())
       ->type_name("FILE");
+  command.add_flag("--no-plots{false}", pareto_.plots, "Draw no plots: gnuplot is not needed");
+  command.add_flag("--no-opengl{false}", pareto_.opengl,
+                   "Leave out OpenGL's tessellation shaders: no OpenGL is needed");
   add_device(command, pareto_.device);
 }
 

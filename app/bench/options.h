@@ -41,6 +41,8 @@ struct ParetoOptions : MeasuredModels {
   std::string output;  // a folder
   // What `trisect hardcases --json` wrote, for the report to show; empty: nothing.
   std::string hardcases;
+  bool plots = true;   // by gnuplot
+  bool opengl = true;  // whether OpenGL's tessellation shaders are measured too
 };
 
 struct AblationOptions : MeasuredModels {

@@ -58,7 +58,7 @@ Scene measure_scene(const gpu::Device& device, const ParetoOptions& options,
                      on_embree(normal.scene, cut, normal.params, rays));
     }
     // OpenGL guarantees tessellation levels up to 64.
-    if (n > 64) continue;
+    if (n > 64 || !options.opengl) continue;
     comparison.add(kRasterizer, fmt::format("level {}", n), normal,
                    on_opengl(normal.scene, normal.params, n));
   }

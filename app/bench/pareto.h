@@ -29,8 +29,8 @@ constexpr const char* kRobustTiles = "robust, tiles";
 constexpr const char* kThesisHeight = "thesis, height shell";
 constexpr const char* kRasterizer = "OpenGL tessellation";
 
-// Measures all contenders in turns. An OpenGL context must be current. Throws InputError and
-// DeviceError.
+// Measures all contenders in turns. An OpenGL context must be current, if OpenGL is measured.
+// Throws InputError and DeviceError.
 Scene measure_scene(const gpu::Device& device, const ParetoOptions& options,
                     const std::string& model, uint surface);
 

@@ -29,10 +29,12 @@ namespace {
 
 using report::Block;
 
-std::vector<std::string> provenance(const gpu::Device& device, const opengl::Context& context,
+// The context is null if OpenGL is not measured.
+std::vector<std::string> provenance(const gpu::Device& device, const opengl::Context* context,
                                     const ParetoOptions& options) {
   return {fmt::format("Vulkan: {}, {}", device.report().name, device.report().driver),
-          fmt::format("OpenGL: {}, {}", context.device(), context.driver()),
+          context == nullptr ? "OpenGL: left out"
+                             : fmt::format("OpenGL: {}, {}", context->device(), context->driver()),
           fmt::format("CPU: {} threads", std::thread::hardware_concurrency()),
           bench::program_and_date(),
           fmt::format("{}x{} pixels, {} frames each after a warm-up, in turns", options.width,
@@ -40,7 +42,7 @@ std::vector<std::string> provenance(const gpu::Device& device, const opengl::Con
 }
 
 std::vector<Block> report_of(const std::vector<bench::Scene>& scenes,
-                             const std::vector<std::string>& facts,
+                             const std::vector<std::string>& facts, bool plots,
                              const std::optional<bench::StressTable>& hard) {
   std::vector<Block> blocks;
   blocks.emplace_back(report::Heading{1, "Speed against error"});
@@ -62,7 +64,9 @@ std::vector<Block> report_of(const std::vector<bench::Scene>& scenes,
     blocks.emplace_back(
         report::Heading{2, fmt::format("{}, {} ({} patches)", scene.model,
                                        surface_name(scene.surface), scene.patches)});
-    blocks.emplace_back(report::Picture{name + ".svg", "Milliseconds over error, " + name});
+    if (plots) {
+      blocks.emplace_back(report::Picture{name + ".svg", "Milliseconds over error, " + name});
+    }
     blocks.emplace_back(report::Items{bench::findings_of(scene)});
     blocks.emplace_back(bench::table_of(scene));
     blocks.emplace_back(report::Paragraph{
@@ -85,7 +89,7 @@ std::vector<Block> report_of(const std::vector<bench::Scene>& scenes,
 }  // namespace
 
 int bench_pareto(const ParetoOptions& options) {
-  bench::expect_gnuplot();
+  if (options.plots) bench::expect_gnuplot();
   // Reads all models first, so that a bad one is reported before anything is measured.
   for (const std::string& model : options.models) build_mesh(read_obj(model), model);
   std::optional<bench::StressTable> hard;
@@ -93,7 +97,8 @@ int bench_pareto(const ParetoOptions& options) {
   const gpu::Instance instance(false);
   const gpu::Device device(instance, options.device);
   const PipelineStore store(device, cache_folder());
-  const opengl::Context context;
+  std::optional<opengl::Context> context;
+  if (options.opengl) context.emplace();
   const bench::ReportFolder folder(options.output);
   std::vector<bench::Scene> scenes;
   for (const std::string& model : options.models) {
@@ -105,19 +110,21 @@ int bench_pareto(const ParetoOptions& options) {
       std::fflush(stdout);
     }
   }
-  const std::vector<std::string> facts = provenance(device, context, options);
+  const std::vector<std::string> facts = provenance(device, context ? &*context : nullptr, options);
   for (const bench::Scene& scene : scenes) {
     const std::string name = bench::name_of(scene);
-    folder.plot(name, [&](const std::string& terminal, const std::string& file) {
-      return bench::plot_script(scene, terminal, file);
-    });
+    if (options.plots) {
+      folder.plot(name, [&](const std::string& terminal, const std::string& file) {
+        return bench::plot_script(scene, terminal, file);
+      });
+    }
     save_image(comparison_picture(scene.truth, scene.thesis),
                folder.path() / (name + "-thesis.png"));
   }
   folder.write("report.csv",
                fmt::format("# {}\n{}", fmt::join(facts, "\n# "), bench::csv_of(scenes)));
   folder.write("report.json", json_text({{"facts", facts}, {"scenes", bench::json_of(scenes)}}));
-  const std::vector<Block> blocks = report_of(scenes, facts, hard);
+  const std::vector<Block> blocks = report_of(scenes, facts, options.plots, hard);
   folder.write("report.md", report::markdown_of(blocks));
   folder.write("report.html", report::html_of("Speed against error", blocks, folder.path()));
   fmt::print("{}\n", (folder.path() / "report.md").string());

@@ -97,6 +97,20 @@ TEST_F(Reports, ReportsSpeedAgainstError) {
   EXPECT_GT(thesis, 0.1);
 }
 
+// On a machine that has neither.
+TEST_F(Reports, SpeedAgainstErrorNeedsNoGnuplotAndNoOpenGl) {
+  const test::ProgramRun run = test::run_trisect(
+      {"bench", "pareto", test::asset_path("sphere-20"), "--quick", "--surface", "phong", "--size",
+       "40x30", "--no-plots", "--no-opengl", "-o", folder_ / "r"},
+      {"PATH=/nowhere", "__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent.json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "r" / "sphere-20-phong.svg"));
+  const std::string text = test::content_of(folder_ / "r" / "report.md");
+  EXPECT_EQ(text.find(".svg"), std::string::npos);
+  EXPECT_EQ(text.find("OpenGL tessellation"), std::string::npos);
+  EXPECT_NE(text.find("| robust, tiles |"), std::string::npos);
+}
+
 TEST_F(Reports, ReportsWhatEachStepIsWorth) {
   expect_complaint(test::run_trisect({"bench", "ablation", "none.obj", "-o", folder_ / "a"}), 3,
                    "none.obj");
