@@ -7,11 +7,18 @@ ready() {
   cmake --build --preset release --target trisect
 }
 
-# on DRIVER COMMAND...: runs a command with a Vulkan driver: `stock`, or `newer`, the one that unpack-mesa.sh unpacks.
+# on DRIVER COMMAND...: runs a command with a Vulkan driver: `stock`, the one that is installed; `newer`, which
+# unpack-mesa.sh unpacks; `swiftshader`, which unpack-swiftshader.sh unpacks.
 on() {
-  local environment=()
-  if [ "$1" = newer ]; then read -ra environment < <(scripts/unpack-mesa.sh); fi
-  env "${environment[@]}" "${@:2}"
+  local variables=() text=""
+  case $1 in
+    stock) ;;
+    newer) text=$(scripts/unpack-mesa.sh) ;;
+    swiftshader) text=$(scripts/unpack-swiftshader.sh) ;;
+    *) echo "$1 is no driver: stock, newer or swiftshader" >&2; return 2 ;;
+  esac
+  read -ra variables <<<"$text"
+  env "${variables[@]}" "${@:2}"
 }
 
 # paths MODEL...: the files of assets.
