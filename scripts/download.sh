@@ -20,6 +20,3 @@ download() {
   apt-get "${options[@]}" update >/dev/null
   (cd "$folder" && apt-get "${options[@]}" download "$@" >/dev/null)
 }
-
-# driver_file FROM LIBRARY TO: a copy of an ICD file that names the library where it lies.
-driver_file() { sed "s|\"library_path\": *\"[^\"]*\"|\"library_path\": \"$2\"|" "$1" >"$3"; }

@@ -16,8 +16,9 @@ if [ ! -e "$target/lavapipe.json" ]; then
   rm -rf "$target"
   mkdir -p "$target"
   for package in "$work"/*.deb; do dpkg -x "$package" "$target"; done
-  driver_file "$target"/usr/share/vulkan/icd.d/lvp_icd*.json "$(find "$target" -name libvulkan_lvp.so)" \
-    "$target/lavapipe.json"
+  libraries=$(dirname "$(find "$target" -name libvulkan_lvp.so)")
+  sed "s|\"library_path\": *\"[^\"]*\"|\"library_path\": \"$libraries/libvulkan_lvp.so\"|" \
+    "$target"/usr/share/vulkan/icd.d/lvp_icd*.json > "$target/lavapipe.json"
 fi
 libraries=$(dirname "$(find "$target" -name libvulkan_lvp.so)")
 echo "VK_DRIVER_FILES=$target/lavapipe.json LD_LIBRARY_PATH=$libraries"

@@ -8,14 +8,15 @@ cd "$(dirname "$0")/.."
 . scripts/download.sh
 target=$PWD/build/swiftshader
 
-if [ ! -e "$target/swiftshader.json" ]; then
+driver=$target/usr/lib/chromium/vk_swiftshader_icd.json
+if [ ! -e "$driver" ]; then
   work=$(mktemp -d)
   trap 'rm -rf "$work"' EXIT
   download bookworm "$work" chromium-common
   rm -rf "$target"
   mkdir -p "$target"
-  dpkg --fsys-tarfile "$work"/*.deb | tar -x -C "$target" --wildcards '*/libvk_swiftshader.so' '*/vk_swiftshader_icd.json'
-  driver_file "$(find "$target" -name vk_swiftshader_icd.json)" "$(find "$target" -name libvk_swiftshader.so)" \
-    "$target/swiftshader.json"
+  # The one names the other by its place beside it.
+  dpkg --fsys-tarfile "$work"/*.deb |
+    tar -x -C "$target" ./usr/lib/chromium/libvk_swiftshader.so ./usr/lib/chromium/vk_swiftshader_icd.json
 fi
-echo "VK_DRIVER_FILES=$target/swiftshader.json"
+echo "VK_DRIVER_FILES=$driver"

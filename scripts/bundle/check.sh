@@ -242,14 +242,14 @@ run 60 "$here/run.sh" trisect devices
 begun=$SECONDS
 if [ $code != 0 ]; then
   note devices "$(outcome $code)" 0 "$(remark $code)"
-  echo "check.sh: $(last_error)" >&2
+  echo "check.sh: $(remark $code)" >&2
   exit 4
 fi
 { section Devices; echo '```'; cat "$work/text"; echo '```'; } | part devices
 run 120 "$here/run.sh" trisect render "$assets/cube.obj" --size 64x48 -o "$work/cube.png" --stats "$work/cube.json"
 if [ $code != 0 ]; then
   note devices "$(outcome $code)" 0 "$(remark $code)"
-  echo "check.sh: $(last_error)" >&2
+  echo "check.sh: $(remark $code)" >&2
   exit 4
 fi
 device=$(text device "$work/cube.json")
