@@ -78,6 +78,7 @@ struct PacketTraversal {
 
 // For each subgroup, a stack of the nodes above the current one that have children to visit: the node's number times 256,
 // plus its to_visit. In shared memory, because drivers turn a private array with a variable index into a ladder of branches.
+// One lane writes what all of them read.
 shared uint subgroup_stacks[TILE_SIZE * TILE_SIZE / CHILDREN][BVH_LEVELS];
 
 // Bit k: the packet may meet the node's child k before `end`. node: its first entry.
@@ -123,7 +124,7 @@ uint next_packet_candidate(Packet packet, PixelRay ray, float z, inout PacketTra
       uint link = bvh[traversal.node + (k ^ packet.octant)].link;
       if (link >= BVH_LEAF) {
         if (COUNTS) traversal.bytes += LINK_BYTES + BALL_BYTES;
-        near = !misses_ball(ray, subpatch_words[(link - BVH_LEAF) * SUBPATCH_WORDS], z);
+        near = !misses_ball(ray, uintBitsToFloat(subpatch_words[(link - BVH_LEAF) * SUBPATCH_WORDS]), z);
         // Decided in this loop and not by the caller, because llvmpipe executes branches that no invocation takes.
         if (subgroupAny(near)) {
           subpatch = link - BVH_LEAF;
@@ -131,8 +132,11 @@ uint next_packet_candidate(Packet packet, PixelRay ray, float z, inout PacketTra
         }
       } else {
         if (traversal.to_visit != 0u) {
-          subgroup_stacks[gl_SubgroupID][traversal.stack_height] =
-              (traversal.node / CHILDREN << CHILDREN) + traversal.to_visit;
+          if (subgroupElect()) {
+            subgroup_stacks[gl_SubgroupID][traversal.stack_height] =
+                (traversal.node / CHILDREN << CHILDREN) + traversal.to_visit;
+          }
+          subgroupMemoryBarrierShared();
           ++traversal.stack_height;
         }
         traversal.node = link;
@@ -145,34 +149,34 @@ uint next_packet_candidate(Packet packet, PixelRay ray, float z, inout PacketTra
   return subpatch;
 }
 
-// The bounds and the triangle of a subpatch that is the same for all invocations of a subgroup. Each lane loads other vec4s
+// The bounds and the triangle of a subpatch that is the same for all invocations of a subgroup. Each lane loads other words
 // and broadcasts them, for the reason given in trace_tiles.comp.
 void load_uniform(uint subpatch, out SubpatchBounds bounds, out Triangle tri) {
   uint lane = gl_SubgroupInvocationID;
-  vec4 loaded = subpatch_words[subpatch * SUBPATCH_WORDS + min(lane, SUBPATCH_WORDS - 1u)];
-  bounds.ball = subgroupBroadcast(loaded, 0);
-  bounds.sub_triangle = subgroupBroadcast(loaded, 1);
-  bounds.corner = subgroupBroadcast(loaded, 2);
-  bounds.edge = subgroupBroadcast(loaded, 3);
-  bounds.cone = subgroupBroadcast(loaded, 4);
-  vec4 rest = subgroupBroadcast(loaded, 5);
-  bounds.triangle = floatBitsToUint(rest.x);
-  bounds.is_flat = floatBitsToUint(rest.y);
-  bounds.gradient_lipschitz = rest.z;
+  uvec4 loaded = subpatch_words[subpatch * SUBPATCH_WORDS + min(lane, SUBPATCH_WORDS - 1u)];
+  bounds.ball = broadcast_floats(loaded, 0);
+  bounds.sub_triangle = broadcast_floats(loaded, 1);
+  bounds.corner = broadcast_floats(loaded, 2);
+  bounds.edge = broadcast_floats(loaded, 3);
+  bounds.cone = broadcast_floats(loaded, 4);
+  uvec4 rest = subgroupBroadcast(loaded, 5);
+  bounds.triangle = rest.x;
+  bounds.is_flat = rest.y;
+  bounds.gradient_lipschitz = uintBitsToFloat(rest.z);
   bounds.skip = 0u;
   uint base = bounds.triangle * TRIANGLE_WORDS;
   loaded = triangle_words[base + (lane & 7u)];
-  tri.Position[0] = subgroupBroadcast(loaded, 0);
-  tri.Position[1] = subgroupBroadcast(loaded, 1);
-  tri.Position[2] = subgroupBroadcast(loaded, 2);
-  tri.Normal[0] = subgroupBroadcast(loaded, 3);
-  tri.Normal[1] = subgroupBroadcast(loaded, 4);
-  tri.Normal[2] = subgroupBroadcast(loaded, 5);
-  tri.TriNormal = subgroupBroadcast(loaded, 6);
-  tri.NormDot = subgroupBroadcast(loaded, 7);
+  tri.Position[0] = broadcast_floats(loaded, 0);
+  tri.Position[1] = broadcast_floats(loaded, 1);
+  tri.Position[2] = broadcast_floats(loaded, 2);
+  tri.Normal[0] = broadcast_floats(loaded, 3);
+  tri.Normal[1] = broadcast_floats(loaded, 4);
+  tri.Normal[2] = broadcast_floats(loaded, 5);
+  tri.TriNormal = broadcast_floats(loaded, 6);
+  tri.NormDot = broadcast_floats(loaded, 7);
   loaded = triangle_words[base + 8u + (lane & 3u)];
-  tri.Domain = subgroupBroadcast(loaded, 0);
-  tri.VertexData[0] = subgroupBroadcast(loaded, 1);
-  tri.VertexData[1] = subgroupBroadcast(loaded, 2);
-  tri.VertexData[2] = subgroupBroadcast(loaded, 3);
+  tri.Domain = broadcast_floats(loaded, 0);
+  tri.VertexData[0] = broadcast_floats(loaded, 1);
+  tri.VertexData[1] = broadcast_floats(loaded, 2);
+  tri.VertexData[2] = broadcast_floats(loaded, 3);
 }

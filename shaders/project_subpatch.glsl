@@ -17,7 +17,7 @@ vec3 project_ball(vec3 p, real radius) {
 
 // Extends the box and moves the lines outward to include the image of a ball, `seen` as project_ball gives it.
 void extend_projection(vec3 seen, INOUT(ProjectedSubpatch) view) {
-  vec3 along = vec3(view.lines_x) * seen.x + vec3(view.lines_y) * seen.y + vec3(seen.z);
+  vec3 along = vec3(view.lines_x) * seen.x + view.lines_y * seen.y + vec3(seen.z);
   vec3 at = max(vec3(view.lines_at), along);
   view.lines_at = vec4(at, 0.0);
   view.box = vec4(min(view.box.x, seen.x - seen.z), min(view.box.y, seen.y - seen.z), max(view.box.z, seen.x + seen.z),
@@ -73,7 +73,8 @@ ProjectedSubpatch project_subpatch(uint index) {
                         min(min(net.b120.z, net.b021.z), min(net.b012.z, net.b102.z))),
                     min(net.b201.z, net.b111.z));
   view.lines_x = vec4(vec3(e0.y, e1.y, e2.y) * scale, begins - radius);
-  view.lines_y = vec4(vec3(-e0.x, -e1.x, -e2.x) * scale, real(bounds.triangle));
+  view.lines_y = vec3(-e0.x, -e1.x, -e2.x) * scale;
+  view.triangle = bounds.triangle;
   view.lines_at = vec4(vec3(real(-1e30)), 0.0);
   view.box = vec4(real(1e30), real(1e30), real(-1e30), real(-1e30));
   extend_projection(s0, view);

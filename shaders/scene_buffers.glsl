@@ -5,7 +5,7 @@ layout(std140, binding = BINDING_ADDRESSES) uniform AddressesBlock { Addresses a
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer TrianglesAt { Triangle items[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer SubpatchesAt { SubpatchBounds items[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer BvhAt { BvhEntry items[]; };
-layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer WordsAt { vec4 items[]; };
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer WordsAt { uvec4 items[]; };
 #define triangles TrianglesAt(uvec2(addresses.triangles_low, addresses.triangles_high)).items
 #define triangle_words WordsAt(uvec2(addresses.triangles_low, addresses.triangles_high)).items
 #define subpatches SubpatchesAt(uvec2(addresses.subpatches_low, addresses.subpatches_high)).items
@@ -15,9 +15,9 @@ layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Wo
 layout(std430, binding = BINDING_TRIANGLES) readonly restrict buffer TrianglesBlock { Triangle triangles[]; };
 layout(std430, binding = BINDING_SUBPATCHES) readonly restrict buffer SubpatchesBlock { SubpatchBounds subpatches[]; };
 #ifdef TRISECT_BVH
-// Triangles and bounds once more, as arrays of vec4; and the BVH.
-layout(std430, binding = BINDING_TRIANGLES) readonly restrict buffer TriangleWordsBlock { vec4 triangle_words[]; };
-layout(std430, binding = BINDING_SUBPATCHES) readonly restrict buffer SubpatchWordsBlock { vec4 subpatch_words[]; };
+// Triangles and bounds once more, as arrays of words, of which floats keep their bits on every device; and the BVH.
+layout(std430, binding = BINDING_TRIANGLES) readonly restrict buffer TriangleWordsBlock { uvec4 triangle_words[]; };
+layout(std430, binding = BINDING_SUBPATCHES) readonly restrict buffer SubpatchWordsBlock { uvec4 subpatch_words[]; };
 layout(std430, binding = BINDING_BVH) readonly restrict buffer BvhBlock { BvhEntry bvh[]; };
 #endif
 #endif

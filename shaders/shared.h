@@ -59,7 +59,8 @@ struct ProjectedSubpatch {
   // is outside if lines_x[i] p.x + lines_y[i] p.y > lines_at[i].
   vec4 box;       // least x, least y, largest x, largest y
   vec4 lines_x;   // xyz; w: the depth in the camera's frame at which the subpatch begins
-  vec4 lines_y;   // xyz; w: index of the triangle, less than 2^24
+  vec3 lines_y;
+  uint triangle;  // index
   vec4 lines_at;  // xyz
   // The patch in the axes of the camera's frame.
   vec4 P0;  // xyz: vertex; w: SubpatchBounds::edge.x
@@ -302,3 +303,4 @@ const float ERROR_WRONG = -3.0;      // a hit instead of a miss, or the other wa
 #define CONSTANT_SHADOWS 6
 #define CONSTANT_BALLS 7
 #define CONSTANT_NONSMOOTH 8
+#define CONSTANT_EIGHT_LANES 9

@@ -12,7 +12,7 @@
 layout(local_size_x = TILE_SIZE * TILE_SIZE) in;
 
 #include "frame_buffers.glsl"
-layout(std430, binding = BINDING_PROJECTED) readonly restrict buffer ProjectedBlock { vec4 projected_words[]; };
+layout(std430, binding = BINDING_PROJECTED) readonly restrict buffer ProjectedBlock { uvec4 projected_words[]; };
 
 #include "rays.glsl"
 #include "tile_candidates.glsl"
@@ -21,10 +21,15 @@ layout(std430, binding = BINDING_PROJECTED) readonly restrict buffer ProjectedBl
 #include "queue.glsl"
 #include "intersect_quickly.glsl"
 #include "overlaps_rect.glsl"
+#include "broadcast.glsl"
 
 layout(std430, binding = BINDING_TILE_ORDER) readonly restrict buffer TileOrderBlock { uint tile_order[]; };
 
-// A ProjectedSubpatch is read as vec4s, of which it has so many. The first four are the culling header: the box and the
+// Whether each subgroup is known to have eight lanes or more. The size that a device reports is no promise that so many are
+// there (app/dispatch/vulkan_tracer.cpp).
+layout(constant_id = CONSTANT_EIGHT_LANES) const bool EIGHT_LANES = false;
+
+// A ProjectedSubpatch is read as uvec4s, of which it has so many. The first four are the culling header: the box and the
 // lines that bound the projection in the image. The patch follows.
 const uint PROJECTED_WORDS = 12u;
 const uint PATCH_WORD = 4u;
@@ -35,56 +40,68 @@ const uint HEADER_BYTES = 64u;
 const uint PROJECTED_BYTES = 192u;
 const uint LANE_SHARE_BYTES = 32u;
 
+vec4 projected_floats(uint word) { return uintBitsToFloat(projected_words[word]); }
+
+// Sets the culling header but for its triangle.
+void set_header(vec4 box, vec4 lines_x, vec3 lines_y, vec4 lines_at, inout ProjectedSubpatch projection) {
+  projection.box = box;
+  projection.lines_x = lines_x;
+  projection.lines_y = lines_y;
+  projection.lines_at = lines_at;
+}
+
 // The culling header of a subpatch, which may differ between the invocations of a subgroup; the rest is undefined.
 ProjectedSubpatch load_header(uint subpatch) {
+  uint base = subpatch * PROJECTED_WORDS;
   ProjectedSubpatch projection;
-  projection.box = projected_words[subpatch * PROJECTED_WORDS];
-  projection.lines_x = projected_words[subpatch * PROJECTED_WORDS + 1u];
-  projection.lines_y = projected_words[subpatch * PROJECTED_WORDS + 2u];
-  projection.lines_at = projected_words[subpatch * PROJECTED_WORDS + 3u];
+  uvec4 lines_y = projected_words[base + 2u];
+  set_header(projected_floats(base), projected_floats(base + 1u), uintBitsToFloat(lines_y.xyz), projected_floats(base + 3u),
+             projection);
+  projection.triangle = lines_y.w;
   return projection;
 }
 
-// The whole record of a subpatch that is the same for all invocations of a subgroup. Each lane loads other vec4s of it and
-// broadcasts them: llvmpipe executes a load lane by lane, so that loading eight different vec4s, one per lane, costs no
+// The whole record of a subpatch that is the same for all invocations of a subgroup. Each lane loads other words of it and
+// broadcasts them: llvmpipe executes a load lane by lane, so that loading eight different words, one per lane, costs no
 // more than loading the same one in all lanes.
 ProjectedSubpatch load_uniform(uint subpatch) {
   uint lane = gl_SubgroupInvocationID;
   uint base = subpatch * PROJECTED_WORDS;
   ProjectedSubpatch projection;
-  if (gl_SubgroupSize < 8u) {
+  if (!EIGHT_LANES) {
     projection = load_header(subpatch);
-    projection.P0 = projected_words[base + PATCH_WORD];
-    projection.P1 = projected_words[base + PATCH_WORD + 1u];
-    projection.P2 = projected_words[base + PATCH_WORD + 2u];
-    projection.D0 = projected_words[base + PATCH_WORD + 3u];
-    projection.D1 = projected_words[base + PATCH_WORD + 4u];
-    projection.D2 = projected_words[base + PATCH_WORD + 5u];
-    projection.cone = projected_words[base + PATCH_WORD + 6u];
-    projection.sizes = projected_words[base + PATCH_WORD + 7u];
+    base += PATCH_WORD;
+    projection.P0 = projected_floats(base);
+    projection.P1 = projected_floats(base + 1u);
+    projection.P2 = projected_floats(base + 2u);
+    projection.D0 = projected_floats(base + 3u);
+    projection.D1 = projected_floats(base + 4u);
+    projection.D2 = projected_floats(base + 5u);
+    projection.cone = projected_floats(base + 6u);
+    projection.sizes = projected_floats(base + 7u);
     return projection;
   }
-  vec4 loaded = projected_words[base + (lane & 3u)];
-  projection.box = subgroupBroadcast(loaded, 0);
-  projection.lines_x = subgroupBroadcast(loaded, 1);
-  projection.lines_y = subgroupBroadcast(loaded, 2);
-  projection.lines_at = subgroupBroadcast(loaded, 3);
+  uvec4 loaded = projected_words[base + (lane & 3u)];
+  uvec4 lines_y = subgroupBroadcast(loaded, 2);
+  set_header(broadcast_floats(loaded, 0), broadcast_floats(loaded, 1), uintBitsToFloat(lines_y.xyz),
+             broadcast_floats(loaded, 3), projection);
+  projection.triangle = lines_y.w;
   loaded = projected_words[base + PATCH_WORD + (lane & 7u)];
-  projection.P0 = subgroupBroadcast(loaded, 0);
-  projection.P1 = subgroupBroadcast(loaded, 1);
-  projection.P2 = subgroupBroadcast(loaded, 2);
-  projection.D0 = subgroupBroadcast(loaded, 3);
-  projection.D1 = subgroupBroadcast(loaded, 4);
-  projection.D2 = subgroupBroadcast(loaded, 5);
-  projection.cone = subgroupBroadcast(loaded, 6);
-  projection.sizes = subgroupBroadcast(loaded, 7);
+  projection.P0 = broadcast_floats(loaded, 0);
+  projection.P1 = broadcast_floats(loaded, 1);
+  projection.P2 = broadcast_floats(loaded, 2);
+  projection.D0 = broadcast_floats(loaded, 3);
+  projection.D1 = broadcast_floats(loaded, 4);
+  projection.D2 = broadcast_floats(loaded, 5);
+  projection.cone = broadcast_floats(loaded, 6);
+  projection.sizes = broadcast_floats(loaded, 7);
   return projection;
 }
 
 // Intersects all rays of the subgroup with one subpatch. position: this invocation's, in the image.
 void intersect_packet(uint subpatch, PixelRay ray, vec2 position, INOUT(Traversal) traversal, INOUT(bool) undecided) {
   ProjectedSubpatch projection = load_uniform(subpatch);
-  if (COUNTS) traversal.counts.bytes += gl_SubgroupSize < 8u ? PROJECTED_BYTES : LANE_SHARE_BYTES;
+  if (COUNTS) traversal.counts.bytes += EIGHT_LANES ? LANE_SHARE_BYTES : PROJECTED_BYTES;
   // For the other surfaces Newton's method needs nothing of the triangle beyond the record.
   if (COUNTS && SURFACE == SURFACE_SPHERE) traversal.counts.bytes += TRIANGLE_BYTES;
   FramedPatch framed;
@@ -99,8 +116,7 @@ void intersect_packet(uint subpatch, PixelRay ray, vec2 position, INOUT(Traversa
   bounds.edge = vec4(projection.P0.w, projection.P1.w, projection.P2.w, 0.0);
   bounds.sub_triangle = vec4(projection.D0.w, projection.D1.w, projection.D2.w, projection.sizes.x);
   bounds.cone = projection.cone;
-  uint triangle = uint(projection.lines_y.w);
-  intersect_quickly(triangles[triangle], triangle, bounds, sheared_patch(ray.frame, framed), subpatch, ray,
+  intersect_quickly(triangles[projection.triangle], projection.triangle, bounds, sheared_patch(ray.frame, framed), subpatch, ray,
                     ray.frame.stretch * projection.sizes.y, near, traversal, undecided);
 }
 
@@ -119,7 +135,8 @@ void main() {
   bool undecided = is_full(tile);
   uint count = undecided ? 1u : tile_counts[tile];
   // As many subpatches of the list at a time as the subgroup has lanes: each lane tests one of them, its own, against the
-  // rectangle of all the subgroup's pixels.
+  // rectangle of all the subgroup's pixels. The lanes are counted: gl_SubgroupSize may be more than are there.
+  uint lanes = subgroupMax(gl_SubgroupInvocationID) + 1u;
   uint first = 0u;
   do {
     uint item = first + gl_SubgroupInvocationID;
@@ -128,7 +145,9 @@ void main() {
     if (COUNTS) traversal.counts.bytes += 4u + HEADER_BYTES;
     bool overlaps = item < count && overlaps_rect(projection, 0.5 * (least + largest),
                                                   0.5 * (largest - least) + vec2(PIXEL_SLACK));
-    float own_depth = overlaps ? projection.lines_x.w : 1e30;
+    // A depth that is no number is taken for the least, so that its subpatch is not lost.
+    float begins = projection.lines_x.w >= -1e30 ? projection.lines_x.w : -1e30;
+    float own_depth = overlaps ? begins : 1e30;
     // Front to back by the least depth of each subpatch, until that is beyond the hits of all rays. If no subpatch overlaps,
     // the loop still intersects one in vain: with the condition at its head llvmpipe would run its body once more than
     // needed every time.
@@ -139,7 +158,7 @@ void main() {
       if (own_subpatch == subpatch) own_depth = 1e30;
       next_depth = subgroupMin(own_depth);
     } while (next_depth < subgroupMax(traversal.hit.z));
-    first += gl_SubgroupSize;
+    first += lanes;
   } while (first < count);
   if (pixel.x >= params.width || pixel.y >= params.height) return;
   count_bytes(traversal);

@@ -59,6 +59,10 @@ struct SubgroupChoice {
   bool required = false;  // a kernel asks for this size, else it is what the device reports
   bool full = false;      // a kernel asks for full subgroups
 
+  // Invocations that each subgroup of a kernel has for certain; 0 if that is not known. What a
+  // driver reports and is not asked for is no promise: Intel's has run fewer.
+  [[nodiscard]] uint32_t certain_size() const { return required && full ? size : 0; }
+
   bool operator==(const SubgroupChoice&) const = default;
 };
 

@@ -38,8 +38,9 @@ bool needs_bvh(Accel accel, bool shadows);
 Accel accel_at_hand(const AccelRequest& request, const BakedScene& scene);
 
 // The names of the kernels that trace a frame's rays: the first one traces all new rays, the
-// second, if there is one, those that the first left undecided or did not finish. subgroup_size: as
-// gpu::Device has it. by_address: the scene's buffers are too large to be bound.
-std::vector<const char*> tracing_kernels(Accel accel, uint32_t subgroup_size, bool by_address);
+// second, if there is one, those that the first left undecided or did not finish. lanes:
+// invocations that each subgroup has for certain. by_address: the scene's buffers are too large to
+// be bound.
+std::vector<const char*> tracing_kernels(Accel accel, uint32_t lanes, bool by_address);
 
 }  // namespace trisect

@@ -19,8 +19,11 @@ namespace {
 // Bytes moved between host and device at a time.
 constexpr std::size_t kStagingBytes = std::size_t{32} << 20U;
 
-std::vector<gpu::Specialization> constants_of(const BakedScene& scene, const KernelChoice& choice) {
-  return {{CONSTANT_SURFACE, scene.choice.surface},
+std::vector<gpu::Specialization> constants_of(const gpu::Device& device, const BakedScene& scene,
+                                              const KernelChoice& choice) {
+  const bool eight_lanes = device.subgroups().certain_size() >= 8;
+  return {{CONSTANT_EIGHT_LANES, eight_lanes ? 1U : 0U},
+          {CONSTANT_SURFACE, scene.choice.surface},
           {CONSTANT_SHELL, scene.choice.shell},
           {CONSTANT_SOLVER, choice.solver},
           {CONSTANT_AOVS, choice.writes_aovs() ? 1U : 0U},
@@ -38,7 +41,7 @@ std::optional<TileLists> lists_for(const gpu::Device& device, const BakedScene& 
     throw DeviceError(device.report().name +
                       " lacks the subgroup operations of --accel tiles; use --accel bvh.");
   }
-  return std::optional<TileLists>(std::in_place, device, constants_of(scene, choice), code,
+  return std::optional<TileLists>(std::in_place, device, constants_of(device, scene, choice), code,
                                   static_cast<uint32_t>(scene.subpatches.size()), width, band_rows);
 }
 
@@ -64,7 +67,7 @@ std::vector<gpu::Kernel> kernels_for(const gpu::Device& device, Accel accel, boo
                                      const std::vector<gpu::Specialization>& constants,
                                      const KernelCode* code) {
   std::vector<gpu::Kernel> kernels;
-  for (const char* name : tracing_kernels(accel, device.subgroup_size(), by_address)) {
+  for (const char* name : tracing_kernels(accel, device.subgroups().certain_size(), by_address)) {
     kernels.push_back(make_kernel(device, name, constants, code));
   }
   return kernels;
@@ -76,7 +79,7 @@ std::vector<gpu::Kernel> shadow_kernels_for(const gpu::Device& device, const Bak
                                             const KernelChoice& choice, bool by_address,
                                             const KernelCode* code) {
   if (!choice.shadows) return {};
-  std::vector<gpu::Specialization> constants = constants_of(scene, choice);
+  std::vector<gpu::Specialization> constants = constants_of(device, scene, choice);
   constants.push_back({CONSTANT_SHADOWS, 1U});
   const Accel accel = choice.accel == Accel::tiles ? Accel::bvh : choice.accel;
   return kernels_for(device, accel, by_address, constants, code);
@@ -104,7 +107,7 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
       band_rows_(rows_in_a_band(device.report().name, buffer_limit_, width, height, writes_aovs_)),
       tiles_(lists_for(device, scene, choice, code, width, band_rows_)),
       scene_(device, scene, buffer_limit_, needs_of(device, choice)),
-      kernels_(kernels_for(device, choice.accel, scene_.by_address(), constants_of(scene, choice),
+      kernels_(kernels_for(device, choice.accel, scene_.by_address(), constants_of(device, scene, choice),
                            code)),
       shadow_kernels_(shadow_kernels_for(device, scene, choice, scene_.by_address(), code)),
       commands_(device),

@@ -7,9 +7,10 @@
 namespace trisect {
 
 using glm::uint;
+using glm::vec3;
 using glm::vec4;
 
-// The lines below see vec4 and uint only.
+// The lines below see these names only.
 #include "shaders/shared.h"
 
 static_assert(sizeof(Triangle) == 192);
@@ -36,6 +37,7 @@ static_assert(sizeof(CastPush) == 28);
 static_assert(sizeof(TilePush) == 32);
 static_assert(offsetof(TilePush, first_group) == 20);
 static_assert(sizeof(ProjectedSubpatch) == 192);
+static_assert(offsetof(ProjectedSubpatch, triangle) == 44);
 static_assert(offsetof(ProjectedSubpatch, P0) == 64);
 static_assert(offsetof(ProjectedSubpatch, sizes) == 176);
 static_assert(sizeof(ScreenPush) == 32);

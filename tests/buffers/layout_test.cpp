@@ -99,6 +99,7 @@ TEST(Layout, ProjectedSubpatch) {
   EXPECT_EQ(held.offsets, (Offsets{{"box", offsetof(ProjectedSubpatch, box)},
                                    {"lines_x", offsetof(ProjectedSubpatch, lines_x)},
                                    {"lines_y", offsetof(ProjectedSubpatch, lines_y)},
+                                   {"triangle", offsetof(ProjectedSubpatch, triangle)},
                                    {"lines_at", offsetof(ProjectedSubpatch, lines_at)},
                                    {"P0", offsetof(ProjectedSubpatch, P0)},
                                    {"P1", offsetof(ProjectedSubpatch, P1)},
