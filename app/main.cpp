@@ -182,8 +182,7 @@ int run(int argc, char** argv) {
   app.add_subcommand("devices", "List the Vulkan devices, and what those that cannot be used lack");
   app.footer(
       "Exit codes: 0 done, 1 farther apart than promised, 2 usage, 3 bad input, 4 no usable "
-      "device, 70 internal error, "
-      "130 interrupted.");
+      "device, 5 device lost, 6 out of memory, 70 internal error, 130 interrupted.");
   const auto is_named = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(is_named).empty()) {
     throw UsageError(fmt::format("'{}' is not a command (see trisect --help)", argv[1]));
@@ -221,12 +220,16 @@ int main(int argc, char** argv) {
     return fail(exit_usage, error.what());
   } catch (const InputError& error) {
     return fail(exit_bad_input, error.what());
+  } catch (const DeviceLost& error) {
+    return fail(exit_device_lost, error.what());
+  } catch (const OutOfMemory& error) {
+    return fail(exit_out_of_memory, error.what());
   } catch (const DeviceError& error) {
     return fail(exit_no_device, error.what());
   } catch (const Interrupted& error) {
     return fail(exit_interrupted, error.what());
   } catch (const std::bad_alloc&) {
-    return fail(exit_bad_input, "not enough memory for this model and image size.");
+    return fail(exit_out_of_memory, kNoMemory);
   } catch (const std::exception& error) {
     return fail(exit_internal, std::string("internal error: ") + error.what());
   }

@@ -3,6 +3,11 @@
 #include "vk/result.h"
 
 namespace trisect::gpu {
+namespace {
+
+constexpr std::size_t kMiB = std::size_t{1} << 20U;
+
+}  // namespace
 
 Buffer::Buffer(const Device& device, std::size_t size, Memory memory, const std::string& name)
     : size_(size) {
@@ -18,8 +23,9 @@ Buffer::Buffer(const Device& device, std::size_t size, Memory memory, const std:
   info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
   const auto require = [&](VkResult result) {
     if (result == VK_SUCCESS) return;
-    throw Error("device " + device.report().name + " has no " + std::to_string(size >> 20U) +
-                " MiB for the " + name + " buffer: " + result_name(result));
+    const std::string bytes =
+        size < kMiB ? std::to_string(size) + " bytes" : std::to_string(size / kMiB) + " MiB";
+    fail(result, "the " + name + " buffer of " + bytes + " on " + device.report().name);
   };
   require(vkCreateBuffer(device.get(), &info, nullptr, buffer_.fill(device.get())));
   device.name(VK_OBJECT_TYPE_BUFFER, buffer_.get(), name);

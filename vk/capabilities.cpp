@@ -22,6 +22,7 @@ constexpr Extension kAddresses{VK_KHR_BUFFER_DEVICE_ADDRESS_EXTENSION_NAME, VK_A
 constexpr Extension kFloatControls{VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME, VK_API_VERSION_1_2};
 constexpr Extension kDriverProperties{VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME, VK_API_VERSION_1_2};
 constexpr Extension kSubgroupSize{VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME, VK_API_VERSION_1_3};
+constexpr Extension kDeviceFault{VK_EXT_DEVICE_FAULT_EXTENSION_NAME, kNeverCore};
 
 // What ray queries need beside buffer addresses.
 constexpr std::array kQueries{
@@ -201,6 +202,7 @@ Capabilities capabilities_of(VkPhysicalDevice device, uint32_t instance_version)
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES};
   VkPhysicalDeviceBufferDeviceAddressFeatures addresses{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES};
+  VkPhysicalDeviceFaultFeaturesEXT faults{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FAULT_FEATURES_EXT};
   VkPhysicalDeviceRayQueryFeaturesKHR queries{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR};
   VkPhysicalDeviceAccelerationStructureFeaturesKHR structures{
@@ -209,6 +211,7 @@ Capabilities capabilities_of(VkPhysicalDevice device, uint32_t instance_version)
   Chain asked(features);
   asked.add_if(offers(found, kSubgroupSize), subgroup_control);
   asked.add_if(offers(found, kAddresses), addresses);
+  asked.add_if(offers(found, kDeviceFault), faults);
   asked.add_if(has_queries, queries);
   asked.add_if(has_queries, structures);
   vkGetPhysicalDeviceFeatures2(device, &features);
@@ -243,6 +246,7 @@ Capabilities capabilities_of(VkPhysicalDevice device, uint32_t instance_version)
       floats.shaderSignedZeroInfNanPreserveFloat32 == VK_TRUE,
       floats.shaderDenormPreserveFloat32 == VK_TRUE && floats.denormBehaviorIndependence != none};
   found.buffer_addresses = addresses.bufferDeviceAddress == VK_TRUE;
+  found.fault_reports = faults.deviceFault == VK_TRUE;
   found.ray_queries = found.buffer_addresses && queries.rayQuery == VK_TRUE &&
                       structures.accelerationStructure == VK_TRUE;
   if (found.ray_queries) {
@@ -259,6 +263,7 @@ std::vector<const char*> extensions_for(const Capabilities& capabilities) {
     if (std::none_of(names.begin(), names.end(), is_it)) names.push_back(extension.name);
   };
   if (capabilities.buffer_addresses) add(kAddresses);
+  if (capabilities.fault_reports) add(kDeviceFault);
   if (capabilities.subgroups.least != 0 || capabilities.subgroups.full) add(kSubgroupSize);
   add(kFloatControls);
   if (capabilities.ray_queries) {

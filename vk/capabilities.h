@@ -87,6 +87,7 @@ struct Capabilities {
   // half the time if they are plain constants before. Other drivers gain nothing.
   bool wants_frozen_constants = false;
   bool buffer_addresses = false;
+  bool fault_reports = false;  // of a lost device (VK_EXT_device_fault)
   bool ray_queries = false;
   VkDeviceSize scratch_alignment = 1;  // of builds of acceleration structures; if ray_queries
 

@@ -112,18 +112,18 @@ double Commands::submit_and_wait() {
   const VkCommandBuffer commands = commands_.get();
   submit.pCommandBuffers = &commands;
   const VkFence fence = fence_.get();
-  TRISECT_VK(vkQueueSubmit(device_->queue(), 1, &submit, fence));
-  TRISECT_VK(
-      vkWaitForFences(device_->get(), 1, &fence, VK_TRUE, std::numeric_limits<uint64_t>::max()));
   TRISECT_VK(vkResetFences(device_->get(), 1, &fence));
+  TRISECT_VK_ON(*device_, vkQueueSubmit(device_->queue(), 1, &submit, fence));
+  TRISECT_VK_WAIT(*device_, vkWaitForFences(device_->get(), 1, &fence, VK_TRUE,
+                                            std::numeric_limits<uint64_t>::max()));
   const std::chrono::duration<double, std::milli> elapsed =
       std::chrono::steady_clock::now() - start;
   if (queries_.get() == VK_NULL_HANDLE) return elapsed.count();
 
   std::array<uint64_t, 2> ticks{};
-  TRISECT_VK(vkGetQueryPoolResults(device_->get(), queries_.get(), 0, 2, sizeof(ticks),
-                                   ticks.data(), sizeof(uint64_t),
-                                   VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
+  TRISECT_VK_ON(*device_, vkGetQueryPoolResults(device_->get(), queries_.get(), 0, 2, sizeof(ticks),
+                                                ticks.data(), sizeof(uint64_t),
+                                                VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
   const uint32_t bits = device_->timestamp_bits();
   const uint64_t mask = bits < 64 ? (uint64_t{1} << bits) - 1 : ~uint64_t{0};
   const auto passed = static_cast<double>((ticks[1] - ticks[0]) & mask);

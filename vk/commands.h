@@ -12,7 +12,7 @@ namespace trisect::gpu {
 
 // One submit at a time, for one thread at a time; the device must outlive it. It puts a memory
 // barrier before each command, so that a command sees what earlier ones wrote. All members throw
-// Error if the device is lost or out of memory.
+// DeviceLost or OutOfMemory; after OutOfMemory the next begin() begins anew.
 class Commands {
  public:
   explicit Commands(const Device& device);

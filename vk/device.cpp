@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "vk/device_fault.h"
 #include "vk/result.h"
 
 namespace trisect::gpu {
@@ -115,6 +116,9 @@ void Device::create(std::span<const char* const> surface_extensions) {
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR};
   structures.accelerationStructure = VK_TRUE;
   enable_if(capabilities_.ray_queries, structures);
+  VkPhysicalDeviceFaultFeaturesEXT faults{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FAULT_FEATURES_EXT};
+  faults.deviceFault = VK_TRUE;
+  enable_if(capabilities_.fault_reports, faults);
 
   std::vector<const char*> extensions = extensions_for(capabilities_);
   extensions.insert(extensions.end(), surface_extensions.begin(), surface_extensions.end());
@@ -123,11 +127,23 @@ void Device::create(std::span<const char* const> surface_extensions) {
   TRISECT_VK(vkCreateDevice(physical(), &info, nullptr, &handle_.device));
 }
 
+void Device::check(VkResult result, const char* call) const {
+  if (result == VK_SUCCESS) return;
+  const bool can_report = result == VK_ERROR_DEVICE_LOST && get_fault_ != nullptr;
+  fail(result, called(call), can_report ? fault_report(get(), get_fault_) : "");
+}
+
+void Device::check_wait(VkResult result, const char* call) const {
+  if (result != VK_SUCCESS) vkDeviceWaitIdle(get());
+  check(result, call);
+}
+
 void Device::load_functions(bool can_name_objects) {
   const auto load = [&]<typename Function>(Function& function, const char* name) {
     function = reinterpret_cast<Function>(vkGetDeviceProcAddr(get(), name));
   };
   if (can_name_objects) load(set_name_, "vkSetDebugUtilsObjectNameEXT");
+  if (capabilities_.fault_reports) load(get_fault_, "vkGetDeviceFaultInfoEXT");
   if (capabilities_.buffer_addresses) {
     // The extension's function has another name than that of Vulkan 1.2.
     const bool core = capabilities_.version >= VK_API_VERSION_1_2;

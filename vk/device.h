@@ -34,6 +34,12 @@ class Device {
   Device& operator=(Device&&) = delete;
 
   [[nodiscard]] VkDevice get() const { return handle_.device; }
+  // As gpu::check() for calls that fail on a lost device; DeviceLost says what the driver reports
+  // (VK_EXT_device_fault).
+  void check(VkResult result, const char* call) const;
+  // The same for calls that wait. Before it throws it waits until the device executes nothing any
+  // more: what was submitted may then be destroyed.
+  void check_wait(VkResult result, const char* call) const;
   [[nodiscard]] VkPhysicalDevice physical() const { return capabilities_.device; }
   [[nodiscard]] VkQueue queue() const { return queue_; }
   // The queue's family.
@@ -118,8 +124,13 @@ class Device {
   DeviceReport report_;
   VkPhysicalDeviceMemoryProperties memory_{};
   PFN_vkSetDebugUtilsObjectNameEXT set_name_ = nullptr;
+  PFN_vkGetDeviceFaultInfoEXT get_fault_ = nullptr;
   StructureFunctions structures_;
   PFN_vkGetBufferDeviceAddress address_of_ = nullptr;
 };
+
+// TRISECT_VK for calls that fail on a lost device, and for those of them that wait.
+#define TRISECT_VK_ON(device, call) (device).check((call), #call)
+#define TRISECT_VK_WAIT(device, call) (device).check_wait((call), #call)
 
 }  // namespace trisect::gpu

@@ -1,5 +1,4 @@
-// The exceptions of the Vulkan layer. Outside of it they are called DeviceError and NoDevice
-// (app/base/error.h).
+// The exceptions of the Vulkan layer. Outside of it Error is called DeviceError (app/base/error.h).
 #pragma once
 
 #include <stdexcept>
@@ -13,6 +12,17 @@ class Error : public std::runtime_error {
 
 // There is no usable device. If there are devices, the message lists each one with what it lacks.
 class NoDevice : public Error {
+  using Error::Error;
+};
+
+// The device was lost: its driver gave its work up. Nothing more can be done with it than to
+// destroy it and what it made.
+class DeviceLost : public Error {
+  using Error::Error;
+};
+
+// There is not enough memory, of the device or of the machine. What was there before still is.
+class OutOfMemory : public Error {
   using Error::Error;
 };
 

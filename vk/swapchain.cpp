@@ -76,12 +76,12 @@ Swapchain::Swapchain(const Device& device, VkSurfaceKHR surface)
 
 void Swapchain::finish() noexcept {
   // Presentation uses the semaphores until the queue is idle; no fence signals that.
-  vkQueueWaitIdle(device_->queue());
+  if (vkQueueWaitIdle(device_->queue()) != VK_SUCCESS) vkDeviceWaitIdle(device_->get());
 }
 
 void Swapchain::wait() {
   const VkFence fence = done_.get();
-  TRISECT_VK(vkWaitForFences(device_->get(), 1, &fence, VK_TRUE, kForever));
+  TRISECT_VK_WAIT(*device_, vkWaitForFences(device_->get(), 1, &fence, VK_TRUE, kForever));
 }
 
 bool Swapchain::renew(uint32_t width, uint32_t height) {
@@ -97,7 +97,7 @@ bool Swapchain::renew(uint32_t width, uint32_t height) {
   }
   if (extent.width == 0 || extent.height == 0) return false;
   // The old images must not be in use when they are destroyed.
-  TRISECT_VK(vkQueueWaitIdle(device_->queue()));
+  TRISECT_VK_WAIT(*device_, vkQueueWaitIdle(device_->queue()));
   images_.clear();
 
   VkSwapchainCreateInfoKHR info{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
@@ -119,7 +119,7 @@ bool Swapchain::renew(uint32_t width, uint32_t height) {
   info.oldSwapchain = swapchain_.get();
   const VkDevice handle = device_->get();
   Owned<VkSwapchainKHR, vkDestroySwapchainKHR> renewed;
-  TRISECT_VK(vkCreateSwapchainKHR(handle, &info, nullptr, renewed.fill(handle)));
+  TRISECT_VK_ON(*device_, vkCreateSwapchainKHR(handle, &info, nullptr, renewed.fill(handle)));
   swapchain_ = std::move(renewed);
   extent_ = extent;
 
@@ -190,7 +190,7 @@ bool Swapchain::show(uint32_t width, uint32_t height, const Recorder& prepare,
     return false;
   }
   // A suboptimal image can be presented; the next frame gets new ones.
-  if (acquisition != VK_SUBOPTIMAL_KHR) check(acquisition, "vkAcquireNextImageKHR");
+  if (acquisition != VK_SUBOPTIMAL_KHR) device_->check(acquisition, "vkAcquireNextImageKHR");
   const Image& image = images_[index];
   record(image, prepare, draw);
 
@@ -208,7 +208,7 @@ bool Swapchain::show(uint32_t width, uint32_t height, const Recorder& prepare,
   submit.pCommandBuffers = &commands;
   submit.signalSemaphoreCount = 1;
   submit.pSignalSemaphores = &drawn;
-  TRISECT_VK(vkQueueSubmit(device_->queue(), 1, &submit, fence));
+  TRISECT_VK_ON(*device_, vkQueueSubmit(device_->queue(), 1, &submit, fence));
 
   const VkSwapchainKHR swapchain = swapchain_.get();
   VkPresentInfoKHR present{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
@@ -223,7 +223,7 @@ bool Swapchain::show(uint32_t width, uint32_t height, const Recorder& prepare,
     current_ = false;
     return shown != VK_ERROR_OUT_OF_DATE_KHR;
   }
-  check(shown, "vkQueuePresentKHR");
+  device_->check(shown, "vkQueuePresentKHR");
   return true;
 }
 

@@ -185,6 +185,7 @@ std::vector<BvhEntry> build_bvh(const BakedScene& scene) {
   arguments.createLeaf = create_leaf;
   Node* root = static_cast<Node*>(rtcBuildBVH(&arguments));
   if (root == nullptr) {
+    if (rtcGetDeviceError(device.get()) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
     throw std::runtime_error("Embree could not build a tree of " +
                              std::to_string(primitives.size()) + " boxes.");
   }

@@ -13,7 +13,9 @@ enum ExitCode : int {
   exit_usage = 2,
   exit_bad_input = 3,
   exit_no_device = 4,
-  exit_internal = 70,  // a failed check of the program's own, as sysexits.h has it
+  exit_device_lost = 5,
+  exit_out_of_memory = 6,  // of the device or of the machine
+  exit_internal = 70,      // a failed check of the program's own, as sysexits.h has it
   exit_interrupted = 130,
 };
 
@@ -31,5 +33,10 @@ class InputError : public std::runtime_error {
 // A graphics device that is not there, or that cannot do what is asked of it: Vulkan's or OpenGL's.
 using DeviceError = gpu::Error;
 using NoDevice = gpu::NoDevice;
+using DeviceLost = gpu::DeviceLost;
+// Also the machine's memory, for libraries that do not throw std::bad_alloc.
+using OutOfMemory = gpu::OutOfMemory;
+
+inline constexpr const char* kNoMemory = "not enough memory for this model and image size.";
 
 }  // namespace trisect

@@ -56,7 +56,7 @@ constexpr const char* embree_name(EmbreeRays rays) {
   return rays == EmbreeRays::packets ? "Embree, packets of 16" : "Embree, single rays";
 }
 
-// Embree on flat triangles, on all cores, shaded as the other contenders are. Throws InputError if
+// Embree on flat triangles, on all cores, shaded as the other contenders are. Throws OutOfMemory if
 // there is not enough memory.
 std::unique_ptr<Contender> on_embree(const BakedScene& scene, const Tessellation& tessellation,
                                      const TraceParams& params, EmbreeRays rays);

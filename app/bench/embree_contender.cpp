@@ -31,6 +31,9 @@ bool count_bytes(void* counter, ssize_t bytes, bool) {
   return true;
 }
 
+constexpr const char* kNoTriangles =
+    "not enough memory for Embree's triangles; take fewer of them or a smaller model.";
+
 // A packet is a square of 4 x 4 pixels.
 constexpr uint32_t kSide = 4;
 constexpr uint32_t kPacket = kSide * kSide;
@@ -54,7 +57,7 @@ class OnEmbree : public Contender {
     rtcReleaseGeometry(triangles);
     rtcCommitScene(scene_.get());
     if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) {
-      throw InputError("not enough memory for Embree's triangles.");
+      throw OutOfMemory(kNoTriangles);
     }
   }
 
@@ -94,7 +97,7 @@ class OnEmbree : public Contender {
   static void copy(RTCGeometry geometry, RTCBufferType type, RTCFormat format,
                    const std::vector<Item>& items) {
     void* to = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(Item), items.size());
-    if (to == nullptr) throw InputError("not enough memory for Embree's triangles.");
+    if (to == nullptr) throw OutOfMemory(kNoTriangles);
     std::copy(items.begin(), items.end(), static_cast<Item*>(to));
   }
 

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "app/base/atomic_file.h"
+#include "app/base/error.h"
 
 namespace trisect {
 namespace {
@@ -54,7 +55,11 @@ PipelineStore::PipelineStore(const gpu::Device& device,
   if (!folder) return;
   file_ = *folder / ("pipelines-" + device.pipeline_key());
   loaded_ = kept_pipelines(file_);
-  if (!loaded_.empty()) device_.add_pipeline_data(loaded_);
+  try {
+    if (!loaded_.empty()) device_.add_pipeline_data(loaded_);
+  } catch (const DeviceError&) {
+    // The pipelines are compiled again.
+  }
 }
 
 PipelineStore::~PipelineStore() {

@@ -50,6 +50,14 @@ VertexArray make_vertex_array() {
 void check(const std::string& what) {
   const GLenum error = glGetError();
   if (error == GL_NO_ERROR) return;
+  if (error == GL_OUT_OF_MEMORY) {
+    throw OutOfMemory(
+        fmt::format("OpenGL has not enough memory: {}; take a smaller image or model.", what));
+  }
+  if (error == GL_CONTEXT_LOST) {
+    throw DeviceLost(
+        fmt::format("the OpenGL device was lost: {}; try again, then with a smaller image.", what));
+  }
   throw DeviceError(fmt::format("OpenGL reports error {:#x}: {}.", error, what));
 }
 

@@ -15,8 +15,8 @@ namespace trisect::opengl {
 // The device's name: GL_RENDERER.
 std::string device_name();
 
-// Throws DeviceError if OpenGL has recorded an error since the last call. what: what was done, for
-// the message.
+// Throws OutOfMemory, DeviceLost or another DeviceError if OpenGL has recorded an error since the
+// last call. what: what was done, for the message.
 void check(const std::string& what);
 
 // The name (number) of an object, which Free deletes with its owner; 0 is none. Move assignment

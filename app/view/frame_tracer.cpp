@@ -65,6 +65,8 @@ FrameTracer::Result FrameTracer::trace(const KeepGoing& may_refine, bool has_sho
     if (wanted.kernels.counts && scheduler_.is_refined(samples_at_rest())) count_work();
   } catch (const UsageError& error) {
     report_failure(error.what());
+  } catch (const DeviceLost&) {
+    throw;
   } catch (const DeviceError& error) {
     if (!scheduler_.has_frame() && !has_shown_a_frame) throw;
     report_failure(error.what());

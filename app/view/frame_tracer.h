@@ -39,8 +39,9 @@ class FrameTracer {
   };
 
   // Traces the next frame if one is due. may_refine: asked between two submits of a refinement;
-  // false stops it. A frame that cannot be traced becomes a message in the panel; without any frame
-  // that was shown before, DeviceError is thrown instead. An interrupt ends every frame.
+  // false stops it. A frame that cannot be traced becomes a message in the panel, and the window
+  // keeps what it can; without any frame that was shown before, DeviceError is thrown instead.
+  // Throws DeviceLost always. An interrupt ends every frame.
   Result trace(const KeepGoing& may_refine, bool has_shown_a_frame);
 
   // Samples in a row of a pixel of the finest frame; 0 if the device's memory does not even hold

@@ -1,9 +1,9 @@
 #include "app/view/loaded_model.h"
 
+#include <exception>
 #include <utility>
 #include <variant>
 
-#include "app/base/error.h"
 #include "app/dispatch/accel.h"
 
 namespace trisect::view {
@@ -26,7 +26,7 @@ std::optional<LoadedModel::Change> LoadedModel::poll(RenderOptions& render, std:
   const auto result = loader_.poll();
   if (!result) return std::nullopt;
   if (const auto* failure = std::get_if<LoadFailure>(&*result)) {
-    if (!is_loaded()) throw InputError(failure->message);
+    if (!is_loaded()) std::rethrow_exception(failure->error);
     message = failure->message;
     restore(render, failure->request);
     return Change::failed;

@@ -33,8 +33,8 @@ class LoadedModel {
   void open(const RenderOptions& render);
 
   // Takes over what has been loaded; nothing if that is nothing. On a failure `message` tells why,
-  // and `render` is set back to the options of the scene that stays. Throws InputError if there is
-  // none.
+  // and `render` is set back to the options of the scene that stays. Throws what it
+  // failed with if there is none.
   std::optional<Change> poll(RenderOptions& render, std::string& message);
 
   [[nodiscard]] bool is_loading() const { return loader_.is_busy(); }

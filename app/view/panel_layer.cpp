@@ -11,7 +11,7 @@ namespace trisect::view {
 namespace {
 
 void check_result(VkResult result) {
-  gpu::check(result, "Dear ImGui");
+  gpu::check(result, "a call of Dear ImGui");
 }
 
 // Uploads the font's texture, by a command buffer of its own.
@@ -24,15 +24,14 @@ void upload_font(const gpu::Device& device) {
   VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
   submit.commandBufferCount = 1;
   submit.pCommandBuffers = &commands;
-  TRISECT_VK(vkQueueSubmit(device.queue(), 1, &submit, VK_NULL_HANDLE));
-  TRISECT_VK(vkQueueWaitIdle(device.queue()));
+  TRISECT_VK_ON(device, vkQueueSubmit(device.queue(), 1, &submit, VK_NULL_HANDLE));
+  TRISECT_VK_WAIT(device, vkQueueWaitIdle(device.queue()));
   ImGui_ImplVulkan_DestroyFontUploadObjects();
 }
 
 }  // namespace
 
-PanelLayer::PanelLayer(const gpu::Instance& instance, const gpu::Device& device,
-                       const Window& window, VkRenderPass render_pass) {
+PanelLayer::PanelLayer(const gpu::Device& device, const Window& window) {
   const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1};
   VkDescriptorPoolCreateInfo pool{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   pool.flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT;
@@ -45,6 +44,11 @@ PanelLayer::PanelLayer(const gpu::Instance& instance, const gpu::Device& device,
   ImGui::GetIO().IniFilename = nullptr;
   ImGui::StyleColorsDark();
   ImGui_ImplGlfw_InitForVulkan(window.get(), true);
+}
+
+PanelLayer::PanelLayer(const gpu::Instance& instance, const gpu::Device& device,
+                       const Window& window, VkRenderPass render_pass)
+    : PanelLayer(device, window) {
   ImGui_ImplVulkan_InitInfo info{};
   info.Instance = instance.get();
   info.PhysicalDevice = device.physical();
@@ -64,7 +68,7 @@ PanelLayer::PanelLayer(const gpu::Instance& instance, const gpu::Device& device,
 }
 
 PanelLayer::~PanelLayer() {
-  ImGui_ImplVulkan_Shutdown();
+  if (ImGui::GetIO().BackendRendererUserData != nullptr) ImGui_ImplVulkan_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
 }

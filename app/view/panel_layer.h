@@ -31,6 +31,9 @@ class PanelLayer {
   [[nodiscard]] static bool wants_mouse();
 
  private:
+  // All but ImGui's part in Vulkan. If that fails, the destructor cleans up.
+  PanelLayer(const gpu::Device& device, const Window& window);
+
   gpu::Owned<VkDescriptorPool, vkDestroyDescriptorPool> pool_;
 };
 

@@ -35,9 +35,10 @@ std::variant<ViewedScene, LoadFailure> load(const SceneRequest& request,
     return ViewedScene{request, std::move(mesh),
                        std::make_shared<const BakedScene>(std::move(scene)), std::move(summary)};
   } catch (const std::bad_alloc&) {
-    return LoadFailure{request, request.model + ": not enough memory for this model."};
+    return LoadFailure{request, request.model + ": not enough memory for this model.",
+                       std::current_exception()};
   } catch (const std::exception& error) {
-    return LoadFailure{request, error.what()};
+    return LoadFailure{request, error.what(), std::current_exception()};
   }
 }
 

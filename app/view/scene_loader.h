@@ -1,6 +1,7 @@
 // Reads and bakes models in the background, while the window goes on showing the last one.
 #pragma once
 
+#include <exception>
 #include <future>
 #include <memory>
 #include <optional>
@@ -33,6 +34,7 @@ struct ViewedScene {
 struct LoadFailure {
   SceneRequest request;
   std::string message;
+  std::exception_ptr error;
 };
 
 // One scene is loaded at a time, in a thread of its own. The functions are for one thread.

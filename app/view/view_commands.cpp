@@ -6,6 +6,7 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -155,24 +156,30 @@ bool ViewCommands::save(const std::string& file) {
   return true;
 }
 
-void ViewCommands::save_next() {
+void ViewCommands::attempt(const std::function<void()>& action) {
   try {
-    save(next_file());
+    action();
+  } catch (const DeviceLost&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    state_.facts.message = kNoMemory;
   } catch (const std::exception& error) {
     state_.facts.message = error.what();
   }
 }
 
+void ViewCommands::save_next() {
+  attempt([this] { save(next_file()); });
+}
+
 void ViewCommands::reload_shaders() {
-  try {
+  attempt([this] {
     auto code = state_.kernels.compile();
     // Kernels that the device refuses must not replace those that work.
     if (state_.model.is_loaded()) tracer_.prepare(code);
     state_.kernels.use(std::move(code));
     state_.facts.message = "compiled the kernels in " + state_.kernels.folder();
-  } catch (const std::exception& error) {
-    state_.facts.message = error.what();
-  }
+  });
 }
 
 void ViewCommands::watch_shaders() {
@@ -183,13 +190,7 @@ void ViewCommands::watch_shaders() {
 
 void ViewCommands::measure_error() {
   if (!finish_loading()) return;
-  try {
-    start_measurement();
-  } catch (const UsageError& error) {
-    state_.facts.message = error.what();
-  } catch (const DeviceError& error) {
-    state_.facts.message = error.what();
-  }
+  attempt([this] { start_measurement(); });
 }
 
 void ViewCommands::start_measurement() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -30,7 +31,7 @@ class ViewCommands : public ScriptActions {
   // Frees the cursor if the mouse turns the camera.
   void stop_turning();
 
-  // Takes over a model that has been loaded. Throws InputError if the first one cannot be.
+  // Takes over a model that has been loaded. Throws what the first one fails with.
   void take_loaded();
 
   // Saves the view under this name, once its model is loaded; false if the user interrupted the
@@ -58,6 +59,8 @@ class ViewCommands : public ScriptActions {
   void frame_model();
   void move_camera_to_model();
   void copy_flags();
+  // What the action fails with becomes a message in the panel. Throws DeviceLost.
+  void attempt(const std::function<void()>& action);
   void save_next();
   void reload_shaders();
   void start_measurement();

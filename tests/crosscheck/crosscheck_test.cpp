@@ -7,10 +7,12 @@
 #include <string>
 
 #include "app/bake/subpatch_bounds.h"
+#include "app/base/error.h"
 #include "app/cli/commands.h"
 #include "app/crosscheck/frame_comparison.h"
 #include "app/dispatch/vulkan_tracer.h"
 #include "app/opengl/context.h"
+#include "app/opengl/objects.h"
 #include "app/opengl/tracer.h"
 #include "tests/support/gpu.h"
 #include "tests/support/scenes.h"
@@ -181,6 +183,10 @@ TEST_F(Crosscheck, RefusesWhatDoesNotFit) {
                gpu::Error);
   EXPECT_THROW(opengl::Tracer(scene, 16384, 8, {SOLVER_BISECT}, GlPath::fragment, 1U << 20U),
                gpu::Error);
+}
+
+TEST_F(Crosscheck, TellsALackOfOpenGLsMemory) {
+  EXPECT_THROW(opengl::Buffer(std::size_t{1} << 46U, "huge"), OutOfMemory);
 }
 
 }  // namespace

@@ -136,8 +136,36 @@ TEST(Result, IsNamedInTheErrorWithItsCall) {
     check(VK_ERROR_DEVICE_LOST, "vkQueueSubmit(queue, 1, &submit, fence)");
     FAIL() << "no error";
   } catch (const Error& error) {
-    EXPECT_STREQ(error.what(), "vkQueueSubmit failed: ErrorDeviceLost");
+    EXPECT_NE(std::string(error.what()).find("vkQueueSubmit (VK_ERROR_DEVICE_LOST)"),
+              std::string::npos)
+        << error.what();
   }
+}
+
+TEST(Result, TellsTheKindOfTheError) {
+  EXPECT_NO_THROW(check(VK_SUCCESS, "vkX()"));
+  EXPECT_THROW(check(VK_ERROR_DEVICE_LOST, "vkX()"), DeviceLost);
+  for (const VkResult result : {VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY,
+                                VK_ERROR_OUT_OF_POOL_MEMORY, VK_ERROR_MEMORY_MAP_FAILED}) {
+    EXPECT_THROW(check(result, "vkX()"), OutOfMemory) << result_name(result);
+  }
+  for (const VkResult result : {VK_ERROR_INITIALIZATION_FAILED, VK_ERROR_SURFACE_LOST_KHR}) {
+    try {
+      check(result, "vkX()");
+      ADD_FAILURE() << result_name(result);
+    } catch (const DeviceLost&) {
+      ADD_FAILURE() << result_name(result);
+    } catch (const OutOfMemory&) {
+      ADD_FAILURE() << result_name(result);
+    } catch (const Error&) {
+    }
+  }
+}
+
+TEST(Result, IsSpelledAsTheSpecificationDoes) {
+  EXPECT_EQ(result_name(VK_SUCCESS), "VK_SUCCESS");
+  EXPECT_EQ(result_name(VK_ERROR_OUT_OF_DATE_KHR), "VK_ERROR_OUT_OF_DATE_KHR");
+  EXPECT_EQ(result_name(VK_SUBOPTIMAL_KHR), "VK_SUBOPTIMAL_KHR");
 }
 
 }  // namespace
