@@ -1,33 +1,102 @@
-// The program on a driver whose calls fail, one at a time: VK_LAYER_TRISECT_fault is put between.
+// The program on a driver whose calls fail, one at a time.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
-#include "tests/support/program.h"
+#include "tests/support/failing_calls.h"
+#include "tests/support/scenes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace trisect {
 namespace {
 
-// A run with one call failing, see tests/layer/fault_layer.cpp.
-class FailingCalls : public test::Program {
- protected:
-  test::ProgramRun render(const std::string& fault) {
-    std::vector<std::string> environment = test::layer_environment("fault");
-    environment.push_back("TRISECT_TEST_FAIL=" + fault);
-    return test::run_trisect(
-        {"render", test::asset_path("sphere-20"), "--size", "32x24", "-o", folder_ / "a.png"},
-        environment);
-  }
-};
+using test::FailingCommand;
+using test::Fault;
 
-TEST_F(FailingCalls, AreComplainedOf) {
-  expect_complaint(render("vkCreateInstance:1:VK_ERROR_OUT_OF_HOST_MEMORY"), 4, "vkCreateInstance");
-  expect_complaint(render("vkAllocateMemory:3:VK_ERROR_OUT_OF_DEVICE_MEMORY"), 4, "buffer");
+FailingCommand render(std::vector<std::string> options,
+                      const std::vector<std::string>& environment = {}) {
+  options.insert(options.begin(), {"render", test::asset_path("sphere-20"), "--size", "32x24", "-o",
+                                   "FOLDER/a.png", "--stats", "FOLDER/s.json"});
+  return FailingCommand(options, environment);
 }
 
-TEST_F(FailingCalls, AreNoneIfTheProgramMakesFewer) {
-  EXPECT_EQ(render("vkCreateInstance:2:VK_ERROR_OUT_OF_HOST_MEMORY").exit_code, 0);
+void expect_each_told(const FailingCommand& command, const std::vector<Fault>& faults) {
+  for (const test::FaultyRun& run : command.run_all(faults)) {
+    // Pipelines that cannot be kept are compiled again by the next run.
+    if (run.fault.function == "vkGetPipelineCacheData") {
+      test::expect_unimpressed(run, {"a.png", "s.json"});
+    } else {
+      test::expect_told(run);
+    }
+  }
+}
+
+TEST(FailingCalls, AreToldByKindWhicheverCallOfARenderItIs) {
+  const FailingCommand command = render({"--accel", "tiles", "--shadows"});
+  const std::vector<Fault> faults = test::every_call(command.calls());
+  EXPECT_GT(faults.size(), 200U);
+  expect_each_told(command, faults);
+}
+
+TEST(FailingCalls, AreToldByKindWithEveryAcceleration) {
+  std::size_t turn = 1;
+  for (const char* accel : {"list", "bvh"}) {
+    const FailingCommand command = render({"--accel", accel});
+    const std::vector<Fault> faults = test::first_and_last_calls(command.calls(), turn++);
+    EXPECT_GT(faults.size(), 40U);
+    expect_each_told(command, faults);
+  }
+}
+
+TEST(FailingCalls, AreToldByOtherCommands) {
+  const FailingCommand devices({"devices"});
+  const std::vector<Fault> all = test::every_call(devices.calls());
+  EXPECT_EQ(all.size(), 3U);
+  for (const test::FaultyRun& run : devices.run_all(all)) test::expect_told(run);
+
+  const FailingCommand bench({"bench", "speed", test::asset_path("sphere-20"), "--surface", "phong",
+                              "--runs", "1", "--size", "32x24", "--error", "1e-2", "--json",
+                              "FOLDER/b.json"});
+  for (const test::FaultyRun& run :
+       bench.run_all({{"vkCreateComputePipelines", 5, "VK_ERROR_OUT_OF_HOST_MEMORY"},
+                      {"vkAllocateMemory", 20, "VK_ERROR_OUT_OF_DEVICE_MEMORY"},
+                      {"vkWaitForFences", 30, "VK_ERROR_DEVICE_LOST"}})) {
+    test::expect_told(run);
+  }
+}
+
+// Or the tests above would pass by a layer that stands in the way.
+TEST(FailingCalls, AreNoneIfTheProgramMakesFewer) {
+  test::expect_unimpressed(render({}).run({"vkCreateInstance", 2, "VK_ERROR_OUT_OF_HOST_MEMORY"}),
+                           {"a.png", "s.json"});
+}
+
+TEST(FailingCalls, ShowTheReportOfADriverThatHasOne) {
+  const FailingCommand command = render({}, {"TRISECT_TEST_FAULT_REPORT=1"});
+  const test::FaultyRun run = command.run({"vkWaitForFences", 2, "VK_ERROR_DEVICE_LOST"});
+  test::expect_told(run);
+  EXPECT_NE(run.program.err.find("a fault of the test; invalid read at 0x12345000 to 0x12345fff; "
+                                 "an engine (code 0x2a, data 0x7)"),
+            std::string::npos)
+      << run.program.err;
+  // Nothing is asked of a device that is not lost.
+  test::expect_told(command.run({"vkWaitForFences", 2, "VK_ERROR_OUT_OF_HOST_MEMORY"}));
+}
+
+// What an earlier run kept is of no use then, but nothing else is wrong.
+TEST(FailingCalls, OfThePipelineStoreDoNoHarm) {
+  const test::TemporaryFolder cache;
+  const FailingCommand command = render({}, {"XDG_CACHE_HOME=" + cache.path().string()});
+  test::expect_unimpressed(command.run({"vkMergePipelineCaches", 1, "VK_ERROR_OUT_OF_HOST_MEMORY"}),
+                           {"a.png", "s.json"});
+  const std::vector<std::string> calls = command.calls();
+  EXPECT_EQ(std::count(calls.begin(), calls.end(), "vkMergePipelineCaches"), 1);
+  for (const Fault& fault : {Fault{"vkMergePipelineCaches", 1, "VK_ERROR_OUT_OF_DEVICE_MEMORY"},
+                             Fault{"vkCreatePipelineCache", 2, "VK_ERROR_INITIALIZATION_FAILED"}}) {
+    test::expect_unimpressed(command.run(fault), {"a.png", "s.json"});
+  }
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <map>
 #include <stdexcept>
 #include <thread>
 
@@ -18,8 +19,30 @@
 namespace trisect::test {
 namespace {
 
+std::string name_of(const std::string& entry) {
+  return entry.substr(0, entry.find('='));
+}
+
+std::vector<std::string> last_of_each_name(const std::vector<std::string>& environment) {
+  std::map<std::string, std::string> entries;
+  for (const std::string& entry : environment) entries[name_of(entry)] = entry;
+  std::vector<std::string> last;
+  for (const auto& [name, entry] : entries) last.push_back(entry);
+  return last;
+}
+
+// Ends the child if it takes longer.
+void wait_for(pid_t child, int& status, int seconds_at_most) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(seconds_at_most);
+  while (waitpid(child, &status, WNOHANG) == 0) {
+    if (std::chrono::steady_clock::now() > end) kill(child, SIGKILL);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+}
+
 ProgramRun run(const std::vector<std::string>& arguments,
-               const std::vector<std::string>& environment, int interrupt_after_ms) {
+               const std::vector<std::string>& environment, int interrupt_after_ms,
+               int seconds_at_most) {
   const TemporaryFolder folder;
   const std::string out = folder / "out";
   const std::string err = folder / "err";
@@ -33,12 +56,11 @@ ProgramRun run(const std::vector<std::string>& arguments,
   argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  std::vector<std::string> added = environment;
+  std::vector<std::string> added = last_of_each_name(environment);
   std::vector<char*> envp;
   const auto is_replaced = [&](const std::string& entry) {
-    return std::any_of(added.begin(), added.end(), [&](const std::string& other) {
-      return entry.substr(0, entry.find('=')) == other.substr(0, other.find('='));
-    });
+    return std::any_of(added.begin(), added.end(),
+                       [&](const std::string& other) { return name_of(entry) == name_of(other); });
   };
   for (char** entry = environ; *entry != nullptr; ++entry) {
     if (!is_replaced(*entry)) envp.push_back(*entry);
@@ -61,7 +83,11 @@ ProgramRun run(const std::vector<std::string>& arguments,
     kill(child, SIGINT);
   }
   int status = 0;
-  waitpid(child, &status, 0);
+  if (seconds_at_most > 0) {
+    wait_for(child, status, seconds_at_most);
+  } else {
+    waitpid(child, &status, 0);
+  }
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return {code, content_of(out), content_of(err)};
 }
@@ -69,8 +95,8 @@ ProgramRun run(const std::vector<std::string>& arguments,
 }  // namespace
 
 ProgramRun run_trisect(const std::vector<std::string>& arguments,
-                       const std::vector<std::string>& environment) {
-  return run(arguments, environment, 0);
+                       const std::vector<std::string>& environment, int seconds_at_most) {
+  return run(arguments, environment, 0, seconds_at_most);
 }
 
 std::vector<std::string> layer_environment(const std::string& layer) {
@@ -78,7 +104,7 @@ std::vector<std::string> layer_environment(const std::string& layer) {
 }
 
 ProgramRun interrupt_trisect(const std::vector<std::string>& arguments, int after_ms) {
-  return run(arguments, {}, after_ms);
+  return run(arguments, {}, after_ms, 0);
 }
 
 }  // namespace trisect::test

@@ -12,9 +12,10 @@ struct ProgramRun {
   std::string err;
 };
 
-// environment: entries "NAME=value" that add to this process's or replace them.
+// environment: entries "NAME=value" that add to this process's or replace them; of two of a name
+// the last one. seconds_at_most: SIGKILL ends a program that takes longer; 0 for any time.
 ProgramRun run_trisect(const std::vector<std::string>& arguments,
-                       const std::vector<std::string>& environment = {});
+                       const std::vector<std::string>& environment = {}, int seconds_at_most = 0);
 
 // The environment under which a program's calls of Vulkan go through a layer of tests/layer.
 std::vector<std::string> layer_environment(const std::string& layer);
