@@ -43,6 +43,7 @@ int exit_code_of(const std::string& result) {
 
 std::vector<Fault> every_call(const std::vector<std::string>& calls, std::size_t turn) {
   std::vector<Fault> faults;
+  faults.reserve(calls.size());
   std::map<std::string, std::size_t> counts;
   for (const std::string& function : calls) {
     faults.push_back({function, ++counts[function], kResults[turn++ % kResults.size()].first});

@@ -27,6 +27,7 @@ std::vector<std::string> last_of_each_name(const std::vector<std::string>& envir
   std::map<std::string, std::string> entries;
   for (const std::string& entry : environment) entries[name_of(entry)] = entry;
   std::vector<std::string> last;
+  last.reserve(entries.size());
   for (const auto& [name, entry] : entries) last.push_back(entry);
   return last;
 }
