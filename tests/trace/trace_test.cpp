@@ -424,8 +424,10 @@ TEST_F(Trace, CountsTheBytesThatRaysRead) {
   for (const Accel accel : {Accel::tiles, Accel::bvh}) {
     const uint64_t bytes = bytes_of(curved, SOLVER_ROBUST, accel);
     EXPECT_GT(bytes, kPixels * sizeof(vec4)) << accel_name(accel);
-    EXPECT_LT(bytes, list / 4) << accel_name(accel)
-                               << ": a quarter of the image has subpatches, a few per pixel";
+    // A quarter of the image has subpatches, a few per pixel. Where a subgroup is too small for
+    // packets, a ray reads all eight children of a node itself, not one for the whole packet.
+    const bool alone = accel == Accel::bvh && test::validated_device().subgroup_size() < 8;
+    EXPECT_LT(bytes, alone ? list : list / 4) << accel_name(accel);
   }
 }
 
