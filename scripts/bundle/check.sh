@@ -68,7 +68,7 @@ without_here() {
 # run LIMIT COMMAND...: runs a command for LIMIT seconds at most, and for as long as the check has. Its output goes to
 # the log and to $work/text; $code is its exit code, 124 if it was stopped, 125 if there was no time to start it.
 run() {
-  local limit=$1 left=$((seconds - (SECONDS - start)))
+  local limit=$1 left=$((seconds - (SECONDS - start))) begun=$SECONDS
   shift
   [ "$limit" -le "$left" ] || limit=$left
   : >"$work/text"
@@ -77,7 +77,8 @@ run() {
   printf '\n$ %s\n' "${*//"$here/"/}" >>"$log"
   { timeout -k 5 "$limit" "$@" >"$work/text"; } 2>"$work/errors"
   code=$?
-  [ $code != 137 ] || code=124
+  # Not stopped by the signal that it may catch, but by the one that it cannot.
+  [ $code != 137 ] || [ $((SECONDS - begun)) -lt "$limit" ] || code=124
   local text
   for text in "$work/text" "$work/errors"; do without_here "$text" >"$work/line" && mv "$work/line" "$text"; done
   cat "$work/text" "$work/errors" >>"$log"
@@ -97,7 +98,7 @@ outcome() {
     0) echo passed ;;
     124) echo "cut short" ;;
     125) echo skipped ;;
-    *) echo "FAILED ($1)" ;;
+    *) echo "FAILED, code $1" ;;
   esac
 }
 remark() {
@@ -105,6 +106,7 @@ remark() {
     0) ;;
     124) echo "its time was over" ;;
     125) echo "no time was left" ;;
+    1[23]?) echo "ended by signal $(($1 - 128))" ;;
     *) last_error ;;
   esac
 }
@@ -181,7 +183,8 @@ key_figures() {
   echo '| robust against the oracle | frames | wrong hits | missed | wrong patches | pixels of other bits on the CPU |'
   echo '|---|---|---|---|---|---|'
   for surface in phong sphere; do
-    echo "| $surface, both shells | ${wrong[$surface, frames]:-0} | ${wrong[$surface, hits]:-} | ${wrong[$surface, missed]:-} | ${wrong[$surface, patches]:-} | ${wrong[$surface, cpu]:-} |"
+    [ "${wrong[$surface, frames]:-0}" != 0 ] || continue
+    echo "| $surface, both shells | ${wrong[$surface, frames]} | ${wrong[$surface, hits]:-} | ${wrong[$surface, missed]:-} | ${wrong[$surface, patches]:-} | ${wrong[$surface, cpu]:-} |"
   done
   printf '\nHard cases: %s.\n' "$hardcases_line"
 }
@@ -195,7 +198,7 @@ write_report() {
     echo "- driver: $driver"
     echo "- OpenGL: $opengl"
     echo "- machine: $(uname -srm), $(nproc) CPUs"
-    echo "- trisect: $version, commit $(<"$here/commit"), as a bundle; $(date -u '+%Y-%m-%d %H:%M') UTC"
+    echo "- $version, commit $(<"$here/commit"), as a bundle; $(date -u '+%Y-%m-%d %H:%M') UTC"
     echo "- check.sh${quick:+ --quick}: $((SECONDS - start)) s of $seconds s, $failures steps failed"
     section "Steps"
     echo '| step | outcome | seconds | |'
@@ -224,13 +227,13 @@ write_report() {
 
 # ---- The check ----
 
-size=800x600 runs=5 error=1e-6
+size=800x600 runs=5 error=1e-6 longest=150
 models=(sphere-20 sphere-80 sphere-320 torus relief teapot teapot-1000 capsule cube saddle)
 crossed=(sphere-20 torus relief teapot cube saddle)
 sizes=(20 80 320 1280 5120 20480 81920 327680 1310720 5242880)
 pareto=(sphere-320 teapot)
 if [ -n "$quick" ]; then
-  size=160x120 runs=3 error=1e-4
+  size=160x120 runs=3 error=1e-4 longest=100
   models=(sphere-20 torus teapot cube)
   crossed=(sphere-20 teapot)
   sizes=(20 320 5120 81920)
@@ -307,7 +310,7 @@ picture() { # NAME MODEL OPTION...
   run 30 "$here/run.sh" trisect render "$assets/$model.obj" --size $size -o "$out/$name.png" --stats "$work/picture.json" "$@"
   if [ $code = 0 ]; then
     patches[$model]=$(figure patches "$work/picture.json")
-    printf '![%s](%s.png)\n\n' "$model $*" "$name" | part pictures
+    printf '![%s](%s.png)\n\n' "$model${*:+ $*}" "$name" | part pictures
   elif [ $drawn = 0 ]; then
     drawn=$code
   fi
@@ -319,7 +322,7 @@ picture relief relief
 picture sphere-20-thesis sphere-20 --preset thesis
 note pictures "$(outcome $drawn)" $((SECONDS - begun)) "$(remark $drawn)"
 
-step "hard cases" 150 "$here/run.sh" trisect hardcases --json "$work/json/hardcases.json"
+step "hard cases" $longest "$here/run.sh" trisect hardcases --json "$work/json/hardcases.json"
 rows=0 passed=0 all=""
 {
   section "Hard cases"
@@ -335,6 +338,7 @@ rows=0 passed=0 all=""
       *) echo "$line" ;;
     esac
   done <"$work/text"
+  [ $rows -gt $passed ] || echo none
   echo '```'
 } >"$work/report/hardcases"
 hardcases_line=${all:-$passed of $rows rows of the robust solver in the normal shell pass, of the rows that there was time for}
@@ -349,19 +353,25 @@ fi
 
 # tests NAME LIMIT PROGRAM FILTER: GoogleTest's, without the tests that are left out, of which the report says why.
 tests() {
-  local name=$1 begun=$SECONDS line passed=0 failed=() result
+  local name=$1 begun=$SECONDS line passed=0 failed=() said=() result text
+  rm -f "$work/failed"
   run "$2" "$here/run.sh" "$3" --gtest_filter="$4"
   while IFS= read -r line; do
     case $line in
       '[       OK ]'*) passed=$((passed + 1)) ;;
       '[  FAILED  ] '*' ms)')
         line=${line#'[  FAILED  ] '}
-        failed+=("${line%%[, ]*}") ;;
+        failed+=("${line%%[, ]*}")
+        [ ${#failed[@]} -gt 3 ] || printf '%s\n' "${failed[-1]}" "${said[@]:0:20}" >>"$work/failed" ;;
+      '[ RUN      ]'*) said=() ;;
+      *) said+=("  $line") ;;
     esac
   done <"$work/text"
   result=$(outcome $code)
-  [ ${#failed[@]} = 0 ] || result="FAILED (${#failed[@]})"
-  note "$name" "$result" $((SECONDS - begun)) "$passed passed${failed[*]:+, failed: ${failed[*]}}$([ $code != 124 ] || echo ', its time was over')"
+  [ ${#failed[@]} = 0 ] || result="FAILED, ${#failed[@]} tests"
+  text=""
+  [ $code != 124 ] && [ $code != 125 ] || text=$(remark $code)
+  note "$name" "$result" $((SECONDS - begun)) "$passed passed${failed[*]:+, failed: ${failed[*]}}${text:+, $text}"
 }
 filter="*"
 [ -z "$quick" ] || filter='Trace.*:Acceleration.*:Queue.*:GpuLayer.*:Assets/GoldenFrame.*'
@@ -371,22 +381,19 @@ if [[ $opengl == none:* ]]; then
   without+=('*Crosscheck*' 'OpenglContender.*')
   reasons+=("those of OpenGL, of which there is none")
 fi
-tests "GPU tests" 150 gpu_tests "$filter-$(IFS=:; echo "${without[*]}")"
+tests "GPU tests" $longest gpu_tests "$filter-$(IFS=:; echo "${without[*]}")"
 {
   section Tests
   echo 'Left out:'
   echo
   printf -- '- %s\n' "${reasons[@]}"
   [ -z "$quick" ] || echo '- with --quick all but traces, accelerations, queues, golden frames and the Vulkan layer'
-  while IFS= read -r line; do
-    [[ $line != *Failure* && $line != *'Which is:'* && $line != *'validation:'* ]] || echo "    $line"
-  done <"$work/text" >"$work/failed"
-  [ ! -s "$work/failed" ] || { printf '\nWhat failed, from the log:\n\n'; cat "$work/failed"; }
+  [ ! -s "$work/failed" ] || { printf '\nWhat the first of those that failed said:\n\n```\n'; cat "$work/failed"; echo '```'; }
 } | part tests
 
 # accurate SURFACE LIMIT: every model, both shells, both solvers; adds up what robust has wrong.
 accurate() {
-  local surface=$1 limit=$2 begun=$SECONDS model worst=0 header="" line left
+  local surface=$1 limit=$2 begun=$SECONDS model worst=0 header="" line left text
   for key in frames hits missed patches cpu; do wrong[$surface, $key]=0; done
   section "Accuracy, $surface, $size" | part accuracy
   for model in "${models[@]}"; do
@@ -413,7 +420,9 @@ accurate() {
       fi
     done <<<"$(table)"
   done
-  note "accuracy, $surface" "$(outcome $worst)" $((SECONDS - begun)) "${wrong[$surface, frames]} of $((2 * ${#models[@]})) robust frames"
+  text=$(remark $worst)
+  note "accuracy, $surface" "$(outcome $worst)" $((SECONDS - begun)) \
+    "${wrong[$surface, frames]} of $((2 * ${#models[@]})) robust frames${text:+, $text}"
 }
 accurate phong 150
 
@@ -436,7 +445,7 @@ fi
 begun=$SECONDS worst=0
 {
   section "Sizes, 800x600, phong"
-  echo '| patches | accel | read, s | bake, s | tree, s | upload, s | MB on the device | ms |'
+  echo '| patches | accel | read, ms | bake, ms | tree, ms | upload, ms | MB on the device | ms a frame |'
   echo '|---|---|---|---|---|---|---|---|'
 } | part sizes
 for count in "${sizes[@]}"; do
@@ -450,8 +459,7 @@ for count in "${sizes[@]}"; do
   row="| $count | $(text accel "$file") |"
   for name in load_ms bake_ms bvh_ms upload_ms; do
     value=$(figure $name "$file")
-    printf -v value '%.2f' "${value:-0}e-3"
-    row+=" $value |"
+    row+=" $(rounded "${value:-0}") |"
   done
   echo "$row $(($(figure scene_bytes "$file") / 1000000)) | $(rounded "$(median gpu_ms "$file")") |" | part sizes
 done
