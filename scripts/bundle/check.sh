@@ -128,11 +128,19 @@ cells() {
   for i in "${!cells[@]}"; do read -r "cells[$i]" <<<"${cells[i]}"; done
 }
 
-# column HEADER NAME: the place of a column in cells().
-column() {
-  local cells i
-  cells "$1"
-  for i in "${!cells[@]}"; do [ "${cells[i]}" != "$2" ] || echo "$i"; done
+# cell HEADER NAME: what the row in `cells` has under that name, into `cell`.
+cell() {
+  local names i name
+  IFS='|' read -ra names <<<"$1"
+  for i in "${!names[@]}"; do
+    read -r name <<<"${names[i]}"
+    if [ "$name" = "$2" ]; then
+      cell=${cells[i]}
+      return
+    fi
+  done
+  echo "check.sh: no column of this table is called $2: $1" >&2
+  exit 70
 }
 
 # The tables among what the last command printed.
@@ -297,9 +305,11 @@ step "bench speed" 150 "$here/run.sh" trisect bench speed "${paths[@]}" --surfac
 header=""
 while IFS= read -r line; do
   [ -n "$header" ] || { header=$line; continue; }
+  [[ $line != '|---'* && -n $line ]] || continue
   cells "$line"
-  ms=${cells[$(column "$header" ms)]}
-  [[ ! $ms =~ ^[0-9] ]] || speed[${cells[$(column "$header" model)]}, ${cells[$(column "$header" contender)]}]=$ms
+  cell "$header" model && model=$cell
+  cell "$header" contender && contender=$cell
+  cell "$header" ms && speed[$model, $contender]=$cell
 done <<<"$(table)"
 { section "Speed, $size"; table; } | part speed
 
@@ -393,7 +403,7 @@ tests "GPU tests" $longest gpu_tests "$filter-$(IFS=:; echo "${without[*]}")"
 
 # accurate SURFACE LIMIT: every model, both shells, both solvers; adds up what robust has wrong.
 accurate() {
-  local surface=$1 limit=$2 begun=$SECONDS model worst=0 header="" line left text
+  local surface=$1 limit=$2 begun=$SECONDS model worst=0 header="" line left text pair key
   for key in frames hits missed patches cpu; do wrong[$surface, $key]=0; done
   section "Accuracy, $surface, $size" | part accuracy
   for model in "${models[@]}"; do
@@ -411,12 +421,13 @@ accurate() {
       elif [ -n "$line" ]; then
         echo "$line" | part accuracy
         cells "$line"
-        [ "${cells[$(column "$header" solver)]}" = robust ] || continue
+        cell "$header" solver
+        [ "$cell" = robust ] || continue
         wrong[$surface, frames]=$((${wrong[$surface, frames]} + 1))
-        wrong[$surface, hits]=$((${wrong[$surface, hits]} + ${cells[$(column "$header" 'wrong hit')]}))
-        wrong[$surface, missed]=$((${wrong[$surface, missed]} + ${cells[$(column "$header" missed)]}))
-        wrong[$surface, patches]=$((${wrong[$surface, patches]} + ${cells[$(column "$header" 'wrong patch')]}))
-        wrong[$surface, cpu]=$((${wrong[$surface, cpu]} + ${cells[$(column "$header" 'cpu differs')]}))
+        for pair in hits:'wrong hit' missed:missed patches:'wrong patch' cpu:'cpu differs'; do
+          cell "$header" "${pair#*:}"
+          wrong[$surface, ${pair%%:*}]=$((${wrong[$surface, ${pair%%:*}]} + cell))
+        done
       fi
     done <<<"$(table)"
   done
