@@ -144,6 +144,17 @@ void add_hardcases(CLI::App& app, HardcasesOptions& options, std::string& backen
   add_device(*hardcases, options.device);
 }
 
+void add_devices(CLI::App& app, DevicesOptions& options) {
+  CLI::App* command = app.add_subcommand(
+      "devices", "List the Vulkan devices, and what those that cannot be used lack");
+  command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  command->add_flag("--floats", options.floats,
+                    "Measure what the arithmetic of usable devices does: errors, contraction, "
+                    "denormals, NaN");
+  add_device(*command, options.device);
+  add_table_json(*command, options.json);
+}
+
 int run_crosscheck(CrosscheckOptions options, const CrosscheckText& text) {
   parse_scene(text.scene, options.render);
   if (text.backends) options.backends = parse_backends("--backends", *text.backends);
@@ -179,7 +190,8 @@ int run(int argc, char** argv) {
   CompareOptions compare_options;
   std::vector<std::string> thresholds;
   add_compare(app, compare_options, thresholds);
-  app.add_subcommand("devices", "List the Vulkan devices, and what those that cannot be used lack");
+  DevicesOptions devices_options;
+  add_devices(app, devices_options);
   app.footer(
       "Exit codes: 0 done, 1 farther apart than promised, 2 usage, 3 bad input, 4 no usable "
       "device, 5 device lost, 6 out of memory, 70 internal error, 130 interrupted.");
@@ -193,7 +205,7 @@ int run(int argc, char** argv) {
     if (error.get_exit_code() == 0) return app.exit(error);
     return fail(exit_usage, std::string(error.what()) + " (see trisect --help)");
   }
-  if (app.got_subcommand("devices")) return list_devices();
+  if (app.got_subcommand("devices")) return list_devices(devices_options);
   if (app.got_subcommand("accuracy")) return run_accuracy(accuracy_options, accuracy_text);
   if (app.got_subcommand("bench")) return bench.run();
   if (app.got_subcommand("view")) return view.run();

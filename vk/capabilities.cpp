@@ -235,7 +235,9 @@ Capabilities capabilities_of(VkPhysicalDevice device, uint32_t instance_version)
   vkGetPhysicalDeviceProperties2(device, &properties);
 
   if (offers(found, kDriverProperties)) {
-    found.driver = std::string(driver.driverName) + ", " + driver.driverInfo;
+    found.driver = driver.driverName;
+    // SwiftShader's is empty.
+    if (driver.driverInfo[0] != '\0') found.driver += std::string(", ") + driver.driverInfo;
     found.wants_frozen_constants = driver.driverID == VK_DRIVER_ID_GOOGLE_SWIFTSHADER;
   }
   found.subgroups = subgroups_of(subgroups, subgroup_control, subgroup_sizes);

@@ -88,8 +88,9 @@ DeviceReport report_on(const Capabilities& device) {
     report.type = entry.name;
     report.rank = entry.rank;
   }
-  if (device.version < kLeastVersion)
+  if (device.version < kLeastVersion) {
     report.lacks.push_back("Vulkan " + version_text(kLeastVersion));
+  }
   if (!device.compute_family) report.lacks.emplace_back("a compute queue");
   const std::vector<std::string> unmet = unmet_needs(properties.limits);
   report.lacks.insert(report.lacks.end(), unmet.begin(), unmet.end());

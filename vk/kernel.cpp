@@ -7,15 +7,15 @@
 
 namespace trisect::gpu {
 Kernel::Kernel(const Device& device, std::span<const uint32_t> spirv, KernelInterface interface,
-               const std::vector<Specialization>& constants, const std::string& name)
+               const std::vector<Specialization>& constants, const std::string& name, Floats floats)
     : interface_(std::move(interface)) {
   constexpr VkShaderStageFlags stage = VK_SHADER_STAGE_COMPUTE_BIT;
   set_layout_ = make_set_layout(device, interface_, stage);
   layout_ = make_pipeline_layout(device, set_layout_.get(), interface_, stage);
   const bool frozen = device.capabilities().wants_frozen_constants;
   const ShaderModule module =
-      frozen ? make_shader_module(device, with_frozen_constants(spirv, constants))
-             : make_shader_module(device, spirv);
+      frozen ? make_shader_module(device, with_frozen_constants(spirv, constants), floats)
+             : make_shader_module(device, spirv, floats);
 
   std::vector<VkSpecializationMapEntry> entries;
   std::vector<uint32_t> values;

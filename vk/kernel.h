@@ -21,7 +21,8 @@ class Kernel {
   // for messages. If the kernel uses subgroup operations, its subgroups are those of
   // device.subgroups(). Throws Error if the driver cannot compile it.
   Kernel(const Device& device, std::span<const uint32_t> spirv, KernelInterface interface,
-         const std::vector<Specialization>& constants, const std::string& name);
+         const std::vector<Specialization>& constants, const std::string& name,
+         Floats floats = Floats::exact);
 
   [[nodiscard]] VkPipeline pipeline() const { return pipeline_.get(); }
   [[nodiscard]] VkPipelineLayout layout() const { return layout_.get(); }

@@ -8,9 +8,12 @@
 
 namespace trisect::gpu {
 
-ShaderModule make_shader_module(const Device& device, std::span<const uint32_t> spirv) {
+ShaderModule make_shader_module(const Device& device, std::span<const uint32_t> spirv,
+                                Floats floats) {
   const ShaderCode code =
-      with_float_controls(with_exact_floats(spirv), device.capabilities().floats);
+      floats == Floats::exact
+          ? with_float_controls(with_exact_floats(spirv), device.capabilities().floats)
+          : ShaderCode(spirv.begin(), spirv.end());
   VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
   info.codeSize = code.size() * sizeof(uint32_t);
   info.pCode = code.data();

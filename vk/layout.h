@@ -28,8 +28,14 @@ using SetLayout = Owned<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout>;
 using PipelineLayout = Owned<VkPipelineLayout, vkDestroyPipelineLayout>;
 using DescriptorPool = Owned<VkDescriptorPool, vkDestroyDescriptorPool>;
 
-// Its floats are exact, see with_exact_floats() and with_float_controls().
-ShaderModule make_shader_module(const Device& device, std::span<const uint32_t> spirv);
+// How a module's operations on floats are done.
+enum class Floats {
+  exact,     // as they are written, see with_exact_floats() and with_float_controls()
+  contract,  // as the driver likes, for measurements of what it likes
+};
+
+ShaderModule make_shader_module(const Device& device, std::span<const uint32_t> spirv,
+                                Floats floats = Floats::exact);
 SetLayout make_set_layout(const Device& device, const KernelInterface& interface,
                           VkShaderStageFlags stage);
 PipelineLayout make_pipeline_layout(const Device& device, VkDescriptorSetLayout set,

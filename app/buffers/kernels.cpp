@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "app/buffers/float_operations.h"
+
 namespace trisect {
 namespace {
 
@@ -42,6 +44,14 @@ gpu::KernelInterface clear_interface() {
            {BINDING_COLOR, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}},
           0};
 }
+
+gpu::KernelInterface floats_interface() {
+  return {{{FLOATS_INPUTS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+           {FLOATS_FLOAT_INPUTS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+           {FLOATS_RESULTS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+           {FLOATS_COPIES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}},
+          sizeof(FloatsPush)};
+}
 }  // namespace
 
 std::span<const KernelSource> kernel_sources() {
@@ -70,6 +80,8 @@ gpu::KernelInterface interface_of(std::string_view name) {
       return cast_interface();
     case Interface::clear:
       return clear_interface();
+    case Interface::floats:
+      return floats_interface();
     case Interface::screen:
       return screen_interface();
     default:

@@ -21,6 +21,7 @@ enum class Interface {
   frame,   // kernels that make a frame: TilePush
   cast,    // kernels that cast rays from a buffer: CastPush
   clear,   // the kernel that clears an image: no push constants
+  floats,  // kernels that try a device's arithmetic: FloatsPush
   screen,  // the shaders that show a frame in a window: ScreenPush
 };
 

@@ -24,7 +24,8 @@ Tolerance tolerance_between(Backend a, Backend b, GlPath gl_path);
 // Compares two image files. Returns exit_different if they are farther apart than the tolerance.
 int compare_images(const CompareOptions& options);
 
-// Lists the Vulkan devices; returns an exit code.
-int list_devices();
+// Lists the Vulkan devices, or the one asked for, and on request what their arithmetic does.
+// Returns exit_no_device if none can be used.
+int list_devices(const DevicesOptions& options);
 
 }  // namespace trisect

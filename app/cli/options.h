@@ -58,6 +58,12 @@ struct AccuracyOptions {
   std::string json;
 };
 
+struct DevicesOptions {
+  std::string device;  // empty: all of them
+  bool floats = false;
+  std::string json;
+};
+
 struct HardcasesOptions {
   std::string json;
   Backend backend = Backend::vulkan;

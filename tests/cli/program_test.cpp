@@ -214,6 +214,20 @@ TEST_F(Program, ListsDevices) {
   EXPECT_NE(run.out.find("usable"), std::string::npos) << run.out;
 }
 
+TEST_F(Program, MeasuresTheArithmeticOfADevice) {
+  const test::ProgramRun run =
+      run_trisect({"devices", "--floats", "--device", "0", "--json", folder_ / "floats.json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("| a + b | 0.5 ulp | "), std::string::npos) << run.out;
+  const auto json = nlohmann::json::parse(std::ifstream(folder_ / "floats.json"));
+  ASSERT_EQ(json["devices"].size(), 1U);
+  const auto& device = json["devices"][0];
+  EXPECT_TRUE(device["usable"]);
+  EXPECT_GT(device["floats"]["items"], 5000);
+  EXPECT_GT(device["floats"]["add"]["ulp"], 0.49);
+  EXPECT_EQ(run_trisect({"devices", "--device", "99"}).exit_code, 4);
+}
+
 TEST_F(Program, TakesADeviceByNumberAndByName) {
   EXPECT_EQ(render({"--device", "0"}).exit_code, 0);
   const std::string listed = run_trisect({"devices"}).out;
