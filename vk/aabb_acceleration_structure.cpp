@@ -88,7 +88,6 @@ AabbAccelerationStructure::Level::Level(const Device& its_device,
   info.size = size;
   info.type = type;
   TRISECT_VK(device.structures().create(device.get(), &info, nullptr, &structure));
-  device.name(VK_OBJECT_TYPE_ACCELERATION_STRUCTURE_KHR, structure, name);
   VkAccelerationStructureDeviceAddressInfoKHR address_info{
       VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR};
   address_info.accelerationStructure = structure;
@@ -106,6 +105,9 @@ AabbAccelerationStructure::AabbAccelerationStructure(const Device& device, Stagi
               structure_size(device, build_of_boxes(0, boxes.size())), "boxes"),
       top_(device, VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR,
            structure_size(device, build_of_instances(0)), "the scene of boxes") {
+  // Not where they are made: a name that cannot be given must leave nothing behind.
+  device.name(VK_OBJECT_TYPE_ACCELERATION_STRUCTURE_KHR, bottom_.structure, "boxes");
+  device.name(VK_OBJECT_TYPE_ACCELERATION_STRUCTURE_KHR, top_.structure, "the scene of boxes");
   const Buffer input(device, boxes.size_bytes(), Memory::addressed, "corners of boxes");
   staging.upload(commands, std::as_bytes(boxes), input);
   Build bottom = build_of_boxes(input.address(), boxes.size());

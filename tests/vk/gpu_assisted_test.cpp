@@ -102,7 +102,7 @@ TEST_F(GpuAssisted, ChecksFindNothingByAddresses) {
   ASSERT_TRUE(device_.has_addresses());
   // A limit that the triangles do not fit in, and a frame does.
   const std::size_t limit = scene_.triangles.size() * sizeof(Triangle) - 1;
-  ASSERT_GE(limit, kSide * TILE_SIZE * sizeof(vec4));
+  ASSERT_GE(limit, sizeof(vec4) * kSide * TILE_SIZE);
   expect_hits({.accel = Accel::bvh}, limit);
   if (device_.has_ray_query()) expect_hits({.accel = Accel::rayquery});
 }
