@@ -26,8 +26,8 @@ RayFrame camera_frame(vec2 across) {
   frame.y = vec3(params.frame_y);
   frame.z = vec3(params.frame_z);
   frame.offset = across;
-  frame.slope = across / params.anchor.w;
-  frame.stretch = sqrt(real(1.0) + frame.slope.x * frame.slope.x + frame.slope.y * frame.slope.y);
+  frame.slope = divide2(across, params.anchor.w);
+  frame.stretch = square_root(real(1.0) + frame.slope.x * frame.slope.x + frame.slope.y * frame.slope.y);
   return frame;
 }
 
@@ -35,9 +35,9 @@ RayFrame camera_frame(vec2 across) {
 PixelRay ray_through(vec3 to_near, vec2 across) {
   PixelRay ray;
   ray.tile = 0u;
-  ray.near_distance = length3(to_near);
+  ray.near_distance = square_root(dot3(to_near, to_near));
   ray.far_depth = ray.near_distance * (params.eye.w - real(1.0));
-  ray.view = to_near / ray.near_distance;
+  ray.view = divide3(to_near, ray.near_distance);
   ray.near_point = vec3(params.eye) + to_near;
   real axis = params.anchor.w;
   ray.frame = camera_frame(across);
@@ -45,7 +45,7 @@ PixelRay ray_through(vec3 to_near, vec2 across) {
   ray.anchor = ray.frame.anchor + ray.frame.x * across.x + ray.frame.y * across.y;
   real square = across.x * across.x + across.y * across.y;
   ray.axis = axis;
-  ray.beyond_axis = square / (axis + sqrt(axis * axis + square));
+  ray.beyond_axis = divide(square, axis + square_root(axis * axis + square));
   return ray;
 }
 

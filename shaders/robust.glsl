@@ -36,7 +36,7 @@ const int VISIT_STEPS = 8;
 // Orthonormal axes with z = view: Duff et al. 2017, "Building an orthonormal basis, revisited".
 RayFrame ray_frame(vec3 anchor, vec3 view) {
   real turn = view.z < real(0.0) ? real(-1.0) : real(1.0);
-  real a = real(-1.0) / (turn + view.z);
+  real a = divide(real(-1.0), turn + view.z);
   real b = view.x * view.y * a;
   EXACT RayFrame frame;
   frame.anchor = anchor;

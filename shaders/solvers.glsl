@@ -5,6 +5,7 @@
 #include "control_net.glsl"
 #include "polar_angle.glsl"
 #include "linear.glsl"
+#include "division.glsl"
 #include "surface.glsl"
 #include "thesis_field.glsl"
 #include "bisect.glsl"

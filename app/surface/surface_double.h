@@ -82,6 +82,8 @@ inline double polar_angle(double sine, double cosine) {
   return std::atan2(sine, cosine);
 }
 #include "shaders/linear.glsl"
+// Rays are made of quotients.
+#include "shaders/division.glsl"
 #include "shaders/surface.glsl"
 #include "shaders/thesis_field.glsl"
 // The bisection needs the fields above.

@@ -34,6 +34,8 @@ namespace {
 #include "shaders/polar_angle.glsl"
 // Vectors need the angle.
 #include "shaders/linear.glsl"
+// Rays are made of quotients.
+#include "shaders/division.glsl"
 #include "shaders/surface.glsl"
 #include "shaders/thesis_field.glsl"
 // The bisection needs the fields above.
