@@ -265,8 +265,12 @@ if [ $code != 0 ]; then
 fi
 device=$(text device "$work/cube.json")
 driver=$(text driver "$work/cube.json")
+# Of devices of that name the first is taken.
+number=""
 while IFS= read -r line; do
-  [[ $line != *"  $device ("* || ! $line =~ Vulkan\ [0-9.]+ ]] || vulkan=${BASH_REMATCH[0]}
+  [[ $line == [0-9]*"  $device ("* && -z $number ]] || continue
+  number=${line%%  *}
+  [[ ! $line =~ Vulkan\ [0-9.]+ ]] || vulkan=${BASH_REMATCH[0]}
 done <<<"$(trisect devices)"
 if [ -z "$named" ]; then
   # Letters and digits of the device's name, with a dash for the rest.
@@ -286,11 +290,8 @@ fi
 echo "$device, $driver; into $out"
 note devices passed $((SECONDS - begun)) ""
 
-help=$(trisect devices --help)
-if [[ $help == *--floats* ]]; then
-  step "devices --floats" 60 "$here/run.sh" trisect devices --floats
-  [ ! -s "$work/text" ] || { section "Floats"; cat "$work/text"; } | part floats
-fi
+step "devices --floats" 60 "$here/run.sh" trisect devices --floats --device "$number" --json "$work/json/devices.json"
+{ section "Floats"; cat "$work/text"; } | part floats
 
 # paths MODEL...: the files of assets, into the array `paths`.
 paths() {
@@ -385,7 +386,7 @@ tests() {
 }
 filter="*"
 [ -z "$quick" ] || filter='Trace.*:Acceleration.*:Queue.*:GpuLayer.*:Assets/GoldenFrame.*'
-without=('GpuLayer.*Validation*' 'HardCases.*')
+without=('GpuLayer.*Validation*' 'GpuAssisted.*' 'HardCases.*')
 reasons=("those of the validation layer, which is not asked for" "the hard cases, which are a step of their own")
 if [[ $opengl == none:* ]]; then
   without+=('*Crosscheck*' 'OpenglContender.*')
