@@ -11,8 +11,9 @@ struct Triangle {
   vec4 Position[3];    // xyz: vertex
   vec4 Normal[3];      // xyz: unit vertex normal
   vec4 TriNormal;      // xyz: unit face normal n; w: length of the longest edge
-  vec4 NormDot;        // component i: dot(Normal[i], n)
-  vec4 Domain;         // xyz, w: centre and radius of a ball that contains the displaced patch
+  vec4 NormDot;        // component i: dot(Normal[i], n), but no nearer to 0 than LEAST_COSINE
+  vec4 Domain;         // xyz, w: centre and radius of a ball that contains the displaced patch;
+                       // a negative radius: there is no displaced patch
   vec4 VertexData[3];  // at vertex i: x, y: curvature toward its lower- and higher-numbered
                        // neighbour; z: interior angle in radians
 };
@@ -212,6 +213,15 @@ struct CastPush {
 };
 
 const uint NO_TRIANGLE = 4294967295u;
+
+// The coordinates, directions and displacements of a patch that the bake hands to the kernels add
+// up to less: the square of such a number has room in single precision.
+const float LARGEST = 1152921504606846976.0;  // 2^60
+
+// In the height shell directions are divided by NormDot. With a normal closer to its face's plane
+// than this, 0.014 degrees, there is no displaced patch: the direction's part along the face
+// normal, which is 1, would have less than half of single precision's digits.
+const float LEAST_COSINE = 0.000244140625;  // 2^-12
 
 // SubpatchBounds::cone.w without a cone: more than any cosine.
 const float NO_CONE = 2.0;

@@ -59,6 +59,7 @@ void traverse_bisect(PixelRay ray, uint pass, INOUT(Traversal) traversal) {
       if (!hit_flat(triangles[t], ray.near_point, ray.view, cdepth, depth, weights)) continue;
     } else {
       vec4 domain = triangles[t].Domain;
+      if (domain.w < real(0.0)) continue;
       vec2 bounds = rsi(ray.near_point - vec3(domain), ray.view, domain.w);
       if (!chord_ahead(bounds)) continue;
       if (COUNTS) {

@@ -26,13 +26,19 @@ struct BakedScene {
 // Bytes of the scene's buffers in a device's memory.
 std::size_t device_bytes(const BakedScene& scene);
 
+// How many triangles have no surface in the scene's shell (has_surface).
+std::size_t count_without_surface(const BakedScene& scene);
+
 // The triangles alone, without subpatches and bvh. Works on all cores; the result does not depend
-// on their number. Throws InputError if the model is too large or too small for single precision.
+// on their number. Throws InputError if the model is too large or too small for single precision,
+// or if no triangle has a surface.
 BakedScene bake(const Mesh& mesh, const SurfaceChoice& choice);
 
 // One triangle, from positions relative to the scene's origin and unit normals. Pure. Everything
 // but the first two members follows from the positions and normals as rounded to single precision,
-// so that it fits what the kernels see.
+// so that it fits what the kernels see. For positions of up to 1e9 and any finite alpha of up to
+// 1e3 all numbers are finite, and so are those that kernels get by dividing by NormDot and
+// VertexData[i].z. The same holds for the scene's subpatches (bake_subpatches).
 Triangle bake_triangle(const std::array<glm::dvec3, 3>& positions,
                        const std::array<glm::dvec3, 3>& normals, const SurfaceChoice& choice);
 

@@ -72,10 +72,6 @@ Ball bound_sphere_surface(const Patch& patch) {
   const Ball base = enclosing_ball(flat_balls(patch));
   // sphere_heights displaces no point by more than the longest edge.
   Ball best{base.center, base.radius + patch.longest};
-  for (const dvec3& D : patch.D) {
-    // From an infinite direction the ranges below would have no bound either.
-    if (!std::isfinite(glm::dot(D, D))) return best;
-  }
   constexpr double tight = 1.1;
   constexpr int levels = 3;
   for (int level = 0; level <= levels && best.radius > tight * base.radius; ++level) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -200,18 +199,22 @@ double proven_position_error(const DisplacementQuadratic& q, const RangedPiece& 
   return std::max(-e.lo, e.hi) * longest_of(piece.corners.D);
 }
 
+// An error bound, or UNBOUNDED if nothing is known: if it is a NaN or infinite.
+double known_error(double error) {
+  return error < in_double::UNBOUNDED ? error : in_double::UNBOUNDED;
+}
+
 // The fit for a subpatch of the sphere surface that may be nonsmooth: only the position error is
 // bounded. `rounded`: the position error from rounding the quadratic.
 Fit nonsmooth_fit(const PatchData& patch, const SubTriangle& sub_triangle, Fit fit,
                   double rounded) {
-  constexpr double most = std::numeric_limits<float>::max();
   add_pieces(patch, in_double::with_overlap(sub_triangle), kProofDivisions, fit.pieces);
   double position_error = 0.0;
   for (const RangedPiece& piece : fit.pieces) {
     max_propagating_nan(position_error, proven_position_error(fit.q, piece));
   }
-  fit.position_error = std::isfinite(position_error) ? position_error + rounded : most;
-  fit.tangent_error = most;
+  fit.position_error = known_error(position_error + rounded);
+  fit.tangent_error = in_double::UNBOUNDED;
   fit.gradient_lipschitz = NONSMOOTH;
   return fit;
 }
@@ -224,6 +227,11 @@ Fit fit(const PatchData& patch, const SubTriangle& sub_triangle) {
                 : through(sub_triangle, [&](const dvec3& w) {
                     return in_double::displacement(patch.shape, patch.tri, w);
                   });
+  // Where directions cancel out there is no sigma for a quadratic to follow. The errors tell.
+  // Written so that a NaN is no coefficient.
+  const double square = glm::dot(fit.q.corner, fit.q.corner) + glm::dot(fit.q.edge, fit.q.edge);
+  const double most = 0.1 * static_cast<double>(LARGEST);
+  if (!(square < most * most)) fit.q = DisplacementQuadratic{};
   const double longest_D = longest_of(patch.corners.D);
   // A coefficient is rounded to single precision, and a product with two weights rounds twice. The
   // kernels' certificates depend on it, and with them a root's last digits.
@@ -249,10 +257,7 @@ Fit fit(const PatchData& patch, const SubTriangle& sub_triangle) {
   }
   max_propagating_nan(fit.gradient_lipschitz,
                       steepest_change(samples) / std::abs(large.size) * longest_D);
-  const auto widened = [&](double error) {
-    return std::isfinite(error) ? error * kBetweenSamples + rounded
-                                : static_cast<double>(std::numeric_limits<float>::max());
-  };
+  const auto widened = [&](double error) { return known_error(error * kBetweenSamples + rounded); };
   fit.position_error = widened(fit.position_error);
   fit.tangent_error = widened(fit.tangent_error);
   fit.gradient_lipschitz = widened(fit.gradient_lipschitz);
@@ -423,6 +428,7 @@ std::vector<SubpatchBounds> bake_subpatches(const BakedScene& scene) {
     std::vector<SubpatchBounds>& subpatches = chunks[first / size];
     subpatches.reserve(end - first);
     for (std::size_t t = first; t < end; ++t) {
+      if (!has_surface(scene.triangles[t])) continue;
       bound_subpatch(patch_data(scene.choice, scene.triangles[t]), kWholeTriangle, 0,
                      static_cast<uint32_t>(t), subpatches);
     }

@@ -9,12 +9,12 @@
 
 namespace trisect {
 
-// The bounds for scene.triangles, in their order: one for a patch whose sigma is close to a
-// quadratic; otherwise one for the whole, with `skip` set, followed by those of its four quarters,
-// each of them divided in the same way, depth first. Position and tangent errors are proven for
-// Phong Tessellation in the normal shell (roundings only) and, the position error, for nonsmooth
-// subpatches; for others they come from samples with a margin. Works on all cores; the result does
-// not depend on their number.
+// The bounds for scene.triangles, in their order: none for one that has no surface; one for a patch
+// whose sigma is close to a quadratic; otherwise one for the whole, with `skip` set, followed by
+// those of its four quarters, each of them divided in the same way, depth first. Position and
+// tangent errors are proven for Phong Tessellation in the normal shell (roundings only) and, the
+// position error, for nonsmooth subpatches; for others they come from samples with a margin. Works
+// on all cores; the result does not depend on their number.
 std::vector<SubpatchBounds> bake_subpatches(const BakedScene& scene);
 
 // bake() and bake_subpatches().

@@ -11,24 +11,25 @@
 
 namespace trisect {
 
-bool parallel_rows(uint32_t height, const std::function<void(uint32_t)>& row,
+bool parallel_rows(uint32_t height, const std::function<void(uint32_t, const Stopped&)>& row,
                    const Progress& progress) {
   std::atomic<uint32_t> next = 0;
   std::atomic<uint32_t> done = 0;
   std::mutex mutex;
   std::condition_variable ended;
   std::exception_ptr error;
-  bool stopped = false;
+  Stopped stopped = false;
   unsigned running = std::max(std::thread::hardware_concurrency(), 1U);
   const auto stop_with = [&](const std::exception_ptr& reason) {
     const std::scoped_lock lock(mutex);
     if (!error) error = reason;
+    stopped = true;
     next = height;
   };
   const auto work = [&] {
     try {
       for (uint32_t y = next++; y < height; y = next++) {
-        row(y);
+        row(y, stopped);
         ++done;
       }
     } catch (...) {
@@ -61,6 +62,12 @@ bool parallel_rows(uint32_t height, const std::function<void(uint32_t)>& row,
   threads.clear();
   if (error) std::rethrow_exception(error);
   return !stopped && (!progress || progress(height));
+}
+
+bool parallel_rows(uint32_t height, const std::function<void(uint32_t)>& row,
+                   const Progress& progress) {
+  const auto whole_row = [&row](uint32_t y, const Stopped&) { row(y); };
+  return parallel_rows(height, whole_row, progress);
 }
 
 void parallel_chunks(std::size_t count, std::size_t size,

@@ -1,6 +1,7 @@
 // Work on the rows of an image, or on chunks of a list, spread over all cores.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -15,6 +16,12 @@ namespace trisect {
 // begun are left out. Returns true if every row was done and progress never returned false. The
 // first exception that row or progress throws ends the work too and is rethrown here.
 bool parallel_rows(uint32_t height, const std::function<void(uint32_t)>& row,
+                   const Progress& progress);
+
+// The same for rows that take long: row(y, stopped) may end early once `stopped` is true, which it
+// is from when progress returned false, or something was thrown.
+using Stopped = std::atomic<bool>;
+bool parallel_rows(uint32_t height, const std::function<void(uint32_t, const Stopped&)>& row,
                    const Progress& progress);
 
 // Calls chunk(first, end) for consecutive ranges of `size` items of `count`, the last one shorter,

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "app/base/parallel_rows.h"
+#include "app/surface/patch_range.h"
 #include "app/surface/surface_double.h"
 #include "app/surface/to_double.h"
 
@@ -87,11 +88,14 @@ Tessellation tessellate(const BakedScene& scene, uint32_t n) {
   const auto patch = [&](std::size_t t) {
     const in_double::Triangle tri = to_double(scene.triangles[t]);
     const in_double::Shape shape = shape_of(scene.choice);
+    // What is to be seen of a patch without a surface is nothing: triangles without area.
+    const bool displaced = has_surface(scene.triangles[t]);
     const std::size_t first = t * vertices_of_patch;
     for (uint32_t row = 0; row <= n; ++row) {
       for (uint32_t column = 0; column <= row; ++column) {
         flat.vertices[first + vertex_number(row, column)] =
-            in_double::surface_point(shape, tri, weights_at<dvec3>(n, row, column));
+            displaced ? in_double::surface_point(shape, tri, weights_at<dvec3>(n, row, column))
+                      : dvec3(tri.Position[0]);
       }
     }
     for (uint32_t index = 0; index < triangles_of_patch; ++index) {
@@ -117,6 +121,7 @@ double tessellation_error(const BakedScene& scene, uint32_t n) {
   double worst = 0.0;
   std::mutex mutex;
   const auto patch = [&](uint32_t t) {
+    if (!has_surface(scene.triangles[t])) return;
     const double error = patch_error(scene, scene.triangles[t], n);
     const std::scoped_lock lock(mutex);
     worst = std::max(worst, error);

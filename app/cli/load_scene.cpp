@@ -76,6 +76,12 @@ LoadedScene load_scene(const RenderOptions& options) {
     return options.solver == SOLVER_ROBUST ? bake_with_subpatches(built.mesh, choice)
                                            : bake(built.mesh, choice);
   });
+  if (const std::size_t count = count_without_surface(loaded.scene); count > 0) {
+    fmt::print(
+        "{}: {} triangles have no surface in the height shell, for a vertex normal lies in their "
+        "face's plane\n",
+        options.model, count);
+  }
   loaded.params = make_params(loaded.scene, settings_of(options, built.mesh, loaded.scene));
   return loaded;
 }

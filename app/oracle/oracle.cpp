@@ -17,12 +17,12 @@ int kept_levels(std::size_t patches) {
   return patches <= 30000 ? 2 : 1;
 }
 
+// Of the patch's ball. Where there is no surface it is that of the flat triangle's: a search finds
+// nothing in it.
 Box box_of(const Triangle& tri) {
   const dvec3 center(tri.Domain);
-  const dvec3 radius(static_cast<double>(tri.Domain.w));
-  const Box box{center - radius, center + radius};
-  if (std::isfinite(glm::dot(center, radius))) return box;
-  return {dvec3(-kInfinity), dvec3(kInfinity)};
+  const dvec3 radius(static_cast<double>(std::abs(tri.Domain.w)));
+  return {center - radius, center + radius};
 }
 
 bool earlier(const OracleRoot& a, const OracleRoot& b) {

@@ -9,8 +9,8 @@ std::optional<OracleFrame> oracle_frame(
     const std::function<double(const OracleRay&)>& motion_of, const Progress& progress) {
   OracleFrame frame{width, height, {}};
   frame.pixels.resize(std::size_t{width} * height);
-  const auto row = [&](uint32_t y) {
-    for (uint32_t x = 0; x < width; ++x) {
+  const auto row = [&](uint32_t y, const Stopped& stopped) {
+    for (uint32_t x = 0; x < width && !stopped; ++x) {
       const OracleRay ray = ray_of(x, y);
       frame.pixels[std::size_t{y} * width + x] = oracle.first(ray, motion_of(ray));
     }

@@ -74,9 +74,9 @@ OracleAnswer oracle_shadow(const Oracle& oracle, const BakedScene& scene, const 
 bool cast_oracle_shadows(const OracleFrame& answers, const BakedScene& scene,
                          const TraceParams& params, Frame& frame, const Progress& progress) {
   const Oracle oracle(scene);
-  const auto row = [&](uint32_t y) {
+  const auto row = [&](uint32_t y, const Stopped& stopped) {
     in_float::Kernel kernel = in_float::kernel_of(scene, params, {SOLVER_ROBUST, true, false});
-    for (uint32_t x = 0; x < frame.width; ++x) {
+    for (uint32_t x = 0; x < frame.width && !stopped; ++x) {
       const std::size_t i = std::size_t{y} * frame.width + x;
       const OracleRoot& root = answers.pixels[i].root;
       if (!answers.pixels[i].hit) continue;

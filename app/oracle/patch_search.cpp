@@ -103,15 +103,9 @@ PatchSearch::PatchSearch(const SurfaceChoice& choice, const Triangle& tri, int l
       patch_(patch_of(choice.shell, tri)),
       shape_(shape_of(choice)),
       tri_(to_double(tri)),
-      defined_(true),
+      defined_(has_surface(tri)),
       quadratic_tangents_(choice.surface == SURFACE_FLAT ||
                           (choice.surface == SURFACE_PHONG && choice.shell == SHELL_NORMAL)) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    // A flat triangle needs no direction.
-    if (choice.surface == SURFACE_FLAT) patch_.D[i] = dvec3(0.0);
-    defined_ = defined_ && std::isfinite(glm::dot(patch_.D[i], patch_.D[i])) &&
-               std::isfinite(glm::dot(patch_.P[i], patch_.P[i]));
-  }
   if (!defined_) return;
   nodes_.push_back(node_of(kWholeTriangle));
   std::size_t first = 0;

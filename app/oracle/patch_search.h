@@ -104,7 +104,7 @@ class PatchSearch {
   Patch patch_;
   in_double::Shape shape_;
   in_double::Triangle tri_;
-  bool defined_;  // false: vertices or directions are not finite, there is no surface
+  bool defined_;  // false: there is no surface (has_surface)
   bool quadratic_tangents_;
   std::vector<Node> nodes_;  // the children of node i are 4 i + 1 to 4 i + 4
 };

@@ -31,6 +31,26 @@ dvec3 tilted(double degrees, const dvec3& toward) {
   return kUp * std::cos(angle) + glm::normalize(toward) * std::sin(angle);
 }
 
+// plain_patch() whose first normals, so many of them, lean by `degrees` away from the middle of the
+// triangle; the others are upright. Beside it a patch that has a surface in every shell.
+Mesh reclined(int corners, double degrees) {
+  const std::array<dvec3, 3> away{dvec3(-1, -0.3, 0), dvec3(1, -0.4, 0), dvec3(0.1, 1, 0)};
+  stress::Corners normals{kUp, kUp, kUp};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(corners); ++k) {
+    // Exactly in the plane at 90 degrees.
+    normals[k] = degrees == 90.0 ? glm::normalize(away[k]) : tilted(degrees, away[k]);
+  }
+  return stress::joined(stress::plain_patch(normals), stress::leaning_patch(20.0),
+                        dvec3(0.3, 0.2, -0.5));
+}
+
+// The same with normals in the plane but for a part along the face normal, up or down.
+Mesh a_hair_off_the_plane(double along) {
+  const stress::Corners normals{dvec3(-1, -0.25, along), dvec3(1, -0.5, -along), kUp};
+  return stress::joined(stress::plain_patch(normals), stress::leaning_patch(20.0),
+                        dvec3(0.3, 0.2, -0.5));
+}
+
 Mesh sliver(double aspect) {
   const double thin = 2.0 / aspect;
   return stress::patch({dvec3(-1, 0, 0), dvec3(1, 0, 0), dvec3(0.1, thin, 0)},
@@ -171,6 +191,32 @@ void add_normals(std::vector<RayCase>& cases) {
   }));
 }
 
+// Normals in their face's plane and beyond it. The height shell divides by their part along the
+// face normal: where that is nothing, it has no surface.
+std::vector<RayCase> reclined_cases() {
+  std::vector<RayCase> cases;
+  const auto add = [&](std::string name, std::string what, std::function<Mesh()> mesh) {
+    cases.push_back(shape(std::move(name), std::move(what), std::move(mesh), 120));
+    cases.back().surfaces = {SURFACE_FLAT, SURFACE_PHONG, SURFACE_SPHERE};
+  };
+  add("normal-in-plane", "a normal at exactly 90 degrees off the face's",
+      [] { return reclined(1, 90.0); });
+  add("two-normals-in-plane", "two normals at exactly 90 degrees",
+      [] { return reclined(2, 90.0); });
+  add("normals-in-plane", "three normals at exactly 90 degrees", [] { return reclined(3, 90.0); });
+  add("normals-1e-30-off", "normals in the plane but for 1e-30, above and below",
+      [] { return a_hair_off_the_plane(1e-30); });
+  add("normals-denormal-off", "normals in the plane but for single precision's denormals",
+      [] { return a_hair_off_the_plane(1e-40); });
+  add("normals-beyond-90", "three normals 93 degrees off the face's",
+      [] { return reclined(3, 93.0); });
+  add("normals-far-beyond-90", "two normals 150 degrees off the face's",
+      [] { return reclined(2, 150.0); });
+  add("normals-upside-down", "three normals 170 degrees off the face's",
+      [] { return reclined(3, 170.0); });
+  return cases;
+}
+
 void add_forms(std::vector<RayCase>& cases) {
   cases.push_back(shape("sliver-1e4", "10,000 times as long as wide", [] { return sliver(1e4); }));
   cases.push_back(
@@ -220,9 +266,14 @@ void add_neighbours(std::vector<RayCase>& cases) {
 
 }  // namespace
 
+std::vector<RayCase> stress_reclined_cases() {
+  return reclined_cases();
+}
+
 std::vector<RayCase> stress_shape_cases() {
   std::vector<RayCase> cases;
   add_normals(cases);
+  for (RayCase& ray_case : stress_reclined_cases()) cases.push_back(std::move(ray_case));
   add_forms(cases);
   add_neighbours(cases);
   return cases;

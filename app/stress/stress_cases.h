@@ -80,6 +80,8 @@ struct CheckedCase {
 const char* kind_name(StressKind kind);
 
 std::vector<RayCase> stress_shape_cases();
+// Those of the shapes that have normals in their face's plane or beyond it.
+std::vector<RayCase> stress_reclined_cases();
 std::vector<RayCase> stress_ray_cases();
 std::vector<RayCase> stress_scale_cases();
 // All of these: shapes, rays, scales.

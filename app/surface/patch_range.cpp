@@ -167,7 +167,8 @@ Patch patch_of(uint shell, const Triangle& tri) {
         shell == SHELL_HEIGHT ? patch.N[k] / static_cast<double>(tri.NormDot[i]) : patch.N[k];
     patch.data[k] = dvec3(tri.VertexData[i]);
   }
-  patch.n = glm::normalize(glm::cross(patch.P[1] - patch.P[0], patch.P[2] - patch.P[0]));
+  const dvec3 n = glm::cross(patch.P[1] - patch.P[0], patch.P[2] - patch.P[0]);
+  patch.n = n == dvec3(0.0) ? dvec3(tri.TriNormal) : glm::normalize(n);
   patch.longest = static_cast<double>(tri.TriNormal.w);
   patch.triangle = to_double(tri);
   patch.triangle.TriNormal = glm::dvec4(patch.n, patch.longest);

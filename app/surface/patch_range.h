@@ -29,6 +29,12 @@ struct Patch {
 
 Patch patch_of(uint shell, const Triangle& tri);
 
+// Whether a baked triangle has a surface in the shell that it was baked for: the height shell has
+// none where a vertex normal lies in the face's plane, LEAST_COSINE says how closely.
+inline bool has_surface(const Triangle& tri) {
+  return tri.Domain.w >= 0.0F;
+}
+
 inline constexpr in_double::SubTriangle kWholeTriangle{glm::dvec3(0.0), 1.0};
 
 // The children of a sub-triangle (in_double::child), the middle one last.

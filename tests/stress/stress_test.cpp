@@ -46,6 +46,25 @@ TEST_F(HardCases, TheRobustSolverPassesThem) {
   }
 }
 
+// Where normals lie in their face's plane or beyond it the height shell is bound to be right, too.
+TEST_F(HardCases, TheRobustSolverPassesReclinedNormalsInBothShells) {
+  const StressBackend backend = vulkan_stress_backend(test::validated_device());
+  std::size_t rows = 0;
+  for (const RayCase& ray_case : stress_reclined_cases()) {
+    for (const uint surface : ray_case.surfaces) {
+      for (const StressRow& row : run_rows(ray_case, surface, backend)) {
+        if (row.solver != SOLVER_ROBUST) continue;
+        ++rows;
+        EXPECT_EQ(row.verdict, "pass")
+            << row.name << " on " << surface_name(surface) << ", " << shell_name(row.shell) << ": "
+            << row.outcome.wrong << " wrong, " << row.outcome.missed << " missed, "
+            << row.outcome.nans << " NaNs, " << row.outcome.undecidable << " undecidable";
+      }
+    }
+  }
+  EXPECT_EQ(rows, 8U * 5U);
+}
+
 TEST_F(HardCases, ImagesAndFilesAreAsTheyShould) {
   const StressBackend backend = vulkan_stress_backend(test::validated_device());
   for (const CheckedCase& checked_case : stress_checked_cases()) {
