@@ -15,9 +15,11 @@ layout(std430, binding = BINDING_TILE_SUBPATCHES) writeonly restrict buffer Tile
 
 #include "overlaps_rect.glsl"
 
-// The row or column of tiles in which an image coordinate in pixels lies, clamped to first <= i <= first + count.
+// The row or column of tiles in which an image coordinate in pixels lies, clamped to first <= i <= first + count. Clamped
+// once as a number, for integers have no room for 1e30, and once as an integer, for a NaN may become any.
 int tile_along(float x, int first, int count) {
-  return int(clamp(floor(x / float(TILE_SIZE)), float(first), float(first + count)));
+  int tile = int(clamp(floor(x / float(TILE_SIZE)), float(first), float(first + count)));
+  return clamp(tile, first, first + count);
 }
 
 void main() {

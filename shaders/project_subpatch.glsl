@@ -30,6 +30,9 @@ void make_unbounded(INOUT(ProjectedSubpatch) view) {
   view.lines_at = vec4(real(1e30));
 }
 
+// A depth at which something begins, for subpatches to be sorted by. What is not a depth is before all else.
+real sortable(real z) { return abs(z) < real(1e30) ? z : real(-1e30); }
+
 // x / |a|, or 0 if |a| is: a line whose normal is 0 leaves nothing out.
 real over_length(real x, vec2 a) {
   real size = length2(a);
@@ -72,7 +75,7 @@ ProjectedSubpatch project_subpatch(uint index) {
   real begins = min(min(min(min(net.b300.z, net.b030.z), min(net.b003.z, net.b210.z)),
                         min(min(net.b120.z, net.b021.z), min(net.b012.z, net.b102.z))),
                     min(net.b201.z, net.b111.z));
-  view.lines_x = vec4(vec3(e0.y, e1.y, e2.y) * scale, begins - radius);
+  view.lines_x = vec4(vec3(e0.y, e1.y, e2.y) * scale, sortable(begins - radius));
   view.lines_y = vec3(-e0.x, -e1.x, -e2.x) * scale;
   view.triangle = bounds.triangle;
   view.lines_at = vec4(vec3(real(-1e30)), 0.0);
@@ -106,6 +109,6 @@ void bound_by_ball(vec4 ball, INOUT(ProjectedSubpatch) view) {
   vec3 center = rotated(frame, vec3(ball) - frame.anchor);
   vec3 seen = project_ball(center, ball.w);
   make_unbounded(view);
-  view.lines_x.w = center.z - ball.w;
+  view.lines_x.w = sortable(center.z - ball.w);
   if (seen.z >= real(0.0)) view.box = vec4(seen.x - seen.z, seen.y - seen.z, seen.x + seen.z, seen.y + seen.z);
 }

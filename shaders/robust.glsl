@@ -32,6 +32,11 @@ const int ONCE_STEPS = 6;
 const real ONCE_MOVED = real(1e-4);
 // What the loops for one node count for in Traversal::steps, without the evaluations.
 const int VISIT_STEPS = 8;
+// The evaluations of one subpatch for one ray, at most, whatever numbers they are fed, for no loop ends by a comparison of
+// numbers alone. A quadtree of ten levels has 1 + 4 + ... + 4^9 nodes. Each takes one evaluation for its fit and MOST_STEPS
+// for Newton's method, on the last level from three corners. intersect_by_newton comes before. A ray takes so many for each
+// subpatch of its list or tree.
+const uint MOST_EVALUATIONS = uint(ONCE_STEPS) + 87381u * (1u + uint(MOST_STEPS)) + 262144u * (1u + 3u * uint(MOST_STEPS));
 
 // Orthonormal axes with z = view: Duff et al. 2017, "Building an orthonormal basis, revisited".
 RayFrame ray_frame(vec3 anchor, vec3 view) {
@@ -314,6 +319,17 @@ Fit fit_bounds(Shape shape, Triangle tri, SubpatchBounds bounds, SubTriangle nod
   return fit;
 }
 
+real size_of(vec3 a) { return abs(a.x) + abs(a.y) + abs(a.z); }
+
+// Whether the numbers of a patch and its bounds are those of a surface. A NaN or an infinity, which a ray or a scene should
+// not have, leaves out no node: a search would go through all of them.
+bool is_searchable(FramedPatch framed, SubpatchBounds bounds, real tolerance) {
+  real size = size_of(framed.P0) + size_of(framed.P1) + size_of(framed.P2) + size_of(framed.D0) + size_of(framed.D1) +
+              size_of(framed.D2) + size_of(vec3(bounds.corner)) + size_of(vec3(bounds.edge)) + tolerance;
+  // Written so that a NaN is no size.
+  return size < LARGEST;
+}
+
 // The roots of a ray in one subpatch, from the node traversal.path on: the nearest one beyond `nearest` that comes before
 // traversal.hit becomes it. Afterwards traversal.path is WHOLE if the search is finished, or else the node at which the
 // steps ran out. `view`: the ray's direction in the scene's axes, of unit length. `may_be_nonsmooth`: whether any subpatch
@@ -335,14 +351,15 @@ void intersect_subpatch(Shape shape, bool may_be_nonsmooth, Triangle tri, Subpat
     return;
   }
   SubTriangle node = sub_triangle_at(bounds.sub_triangle, traversal.path);
+  bool searchable = is_searchable(framed, bounds, tolerance);
   do {
     uint evaluations = traversal.counts.evaluations;
     bool last = traversal.path >= SMALLEST;
     SubTriangle wide = with_overlap(node);
     Fit fit;
-    bool near = true;
+    bool near = searchable;
     if (may_be_nonsmooth && bounds.gradient_lipschitz == NONSMOOTH) {
-      near = ranged_fit(shape, tri, framed, wide, tolerance, fit, traversal.counts.evaluations);
+      near = ranged_fit(shape, tri, framed, wide, tolerance, fit, traversal.counts.evaluations) && searchable;
     } else {
       fit = fit_bounds(shape, tri, bounds, node, traversal.path == WHOLE, traversal.counts.evaluations);
     }

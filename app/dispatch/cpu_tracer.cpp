@@ -6,7 +6,7 @@
 namespace trisect {
 namespace {
 
-// A ray pauses after so many steps, some tenth of a second, to see whether it is to go on.
+// A ray pauses after so many steps, some hundredths of a second, to see whether it is to go on.
 constexpr int kSteps = 1 << 18;
 
 using in_float::Kernel;

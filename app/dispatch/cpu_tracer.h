@@ -15,7 +15,7 @@ namespace trisect {
 
 // Renders into `frame`, which gets the size that `params` says. progress: called as parallel_rows()
 // calls it, with rows. Returns false if it stopped the frame, of which some rows are then missing;
-// a ray that is on its way stops within some tenths of a second.
+// a ray that is on its way stops within a tenth of a second.
 bool trace_on_cpu(const BakedScene& scene, const TraceParams& params, const KernelChoice& choice,
                   Frame& frame, const Progress& progress = {});
 
