@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/base/interval.h"
+#include "app/surface/to_double.h"
 
 namespace trisect {
 namespace {
@@ -78,9 +79,10 @@ Oracle::Oracle(const BakedScene& scene) {
   boxes.reserve(scene.triangles.size());
   patches_.reserve(scene.triangles.size());
   const int levels = kept_levels(scene.triangles.size());
+  const SurfaceChoice choice = with_single_alpha(scene.choice);
   for (const Triangle& tri : scene.triangles) {
     boxes.push_back(box_of(tri));
-    patches_.emplace_back(scene.choice, tri, levels);
+    patches_.emplace_back(choice, tri, levels);
   }
   tree_ = BoxTree(boxes);
 }

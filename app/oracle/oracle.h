@@ -40,7 +40,18 @@ struct OracleAnswer {
 // Both sides of a triangle are hit. Safe to use from several threads.
 class Oracle {
  public:
-  // The scene's baked numbers, widened to double precision, are the truth. Keeps no reference.
+  // The numbers that the kernels take, widened to double precision, are the truth, so that an
+  // answer differs from a kernel's by the kernel's own roundings and by nothing else:
+  //  - positions, normals, N.n of the height shell, curvatures and angles: as baked;
+  //  - alpha: rounded to single precision, as make_params() rounds it;
+  //  - a pixel's ray: the anchor, the axes and the pixel's width of TraceParams
+  //    (oracle_pixel_ray), not the eye and the near plane, with which kernels only cull and shade;
+  //  - a cast ray: its anchor and direction; the light: that of TraceParams.
+  // Three numbers are not taken as they are. The kernels take a direction for a unit vector and the
+  // camera's axes for orthonormal, which they are to 6e-8: here directions are normalised, and what
+  // that changes is one of the kernels' roundings. Face normals are computed from the positions
+  // anew: the roots do not depend on them, what is proven about folds does. A shadow ray starts
+  // from the oracle's own hit: a kernel's start is off by its hit's error. Keeps no reference.
   explicit Oracle(const BakedScene& scene);
 
   // All roots with t_min <= t <= t_max, sorted by t; of one triangle, or of the scene. On a shared

@@ -60,7 +60,7 @@ Frame frame_of(const OracleFrame& answers, const BakedScene& scene, const TraceP
 
 OracleAnswer oracle_shadow(const Oracle& oracle, const BakedScene& scene, const TraceParams& params,
                            uint32_t triangle, const dvec3& weights, const dvec3& view) {
-  const in_double::Shape shape = shape_of(scene.choice);
+  const in_double::Shape shape = shape_of(with_single_alpha(scene.choice));
   const in_double::Triangle tri = to_double(scene.triangles[triangle]);
   const dvec3 light = glm::normalize(dvec3(params.light));
   const dvec3 normal = in_double::facing(in_double::geometric_normal(shape, tri, weights), view);

@@ -153,8 +153,7 @@ dvec3 across(const dvec3& axis, std::mt19937_64& random) {
 
 SurfacePoint point_at(const BakedScene& scene, uint32_t triangle, const dvec3& weights) {
   const in_double::Triangle tri = to_double(scene.triangles.at(triangle));
-  const in_double::Shape shape{scene.choice.surface, scene.choice.shell,
-                               static_cast<double>(static_cast<float>(scene.choice.alpha))};
+  const in_double::Shape shape = shape_of(with_single_alpha(scene.choice));
   return {triangle, weights, in_double::surface_point(shape, tri, weights),
           in_double::geometric_normal(shape, tri, weights)};
 }

@@ -2,6 +2,10 @@
 
 namespace trisect {
 
+SurfaceChoice with_single_alpha(const SurfaceChoice& choice) {
+  return {choice.surface, static_cast<double>(static_cast<float>(choice.alpha)), choice.shell};
+}
+
 in_double::Shape shape_of(const SurfaceChoice& choice) {
   return {choice.surface, choice.shell, choice.alpha};
 }

@@ -7,6 +7,9 @@
 
 namespace trisect {
 
+// The choice that kernels make of this one: they have alpha in single precision.
+SurfaceChoice with_single_alpha(const SurfaceChoice& choice);
+
 in_double::Shape shape_of(const SurfaceChoice& choice);
 
 // Every number is kept exactly.
