@@ -318,7 +318,7 @@ done <<<"$(table)"
 picture() { # NAME MODEL OPTION...
   local name=$1 model=$2
   shift 2
-  run 30 "$here/run.sh" trisect render "$assets/$model.obj" --size $size -o "$out/$name.png" --stats "$work/picture.json" "$@"
+  run 60 "$here/run.sh" trisect render "$assets/$model.obj" --size $size -o "$out/$name.png" --stats "$work/picture.json" "$@"
   if [ $code = 0 ]; then
     patches[$model]=$(figure patches "$work/picture.json")
     printf '![%s](%s.png)\n\n' "$model${*:+ $*}" "$name" | part pictures
