@@ -145,9 +145,7 @@ void main() {
     if (COUNTS) traversal.counts.bytes += 4u + HEADER_BYTES;
     bool overlaps = item < count && overlaps_rect(projection, 0.5 * (least + largest),
                                                   0.5 * (largest - least) + vec2(PIXEL_SLACK));
-    // A depth that is no number is taken for the least, so that its subpatch is not lost.
-    float begins = projection.lines_x.w >= -1e30 ? projection.lines_x.w : -1e30;
-    float own_depth = overlaps ? begins : 1e30;
+    float own_depth = overlaps ? projection.lines_x.w : 1e30;
     // Front to back by the least depth of each subpatch, until that is beyond the hits of all rays. If no subpatch overlaps,
     // the loop still intersects one in vain: with the condition at its head llvmpipe would run its body once more than
     // needed every time.
