@@ -58,8 +58,8 @@ struct BvhEntry {
 struct ProjectedSubpatch {
   // The subpatch is seen within the box, and on the inner side of three lines: an image position p
   // is outside if lines_x[i] p.x + lines_y[i] p.y > lines_at[i].
-  vec4 box;       // least x, least y, largest x, largest y
-  vec4 lines_x;   // xyz; w: the depth in the camera's frame at which the subpatch begins
+  vec4 box;      // least x, least y, largest x, largest y
+  vec4 lines_x;  // xyz; w: the depth in the camera's frame at which the subpatch begins
   vec3 lines_y;
   uint triangle;  // index
   vec4 lines_at;  // xyz
