@@ -78,8 +78,8 @@ LoadedScene load_scene(const RenderOptions& options) {
   });
   if (const std::size_t count = count_without_surface(loaded.scene); count > 0) {
     fmt::print(
-        "{}: {} triangles have no surface in the height shell, for a vertex normal lies in their "
-        "face's plane\n",
+        "{}: no surface in the height shell for {} of the triangles, which have a vertex normal in "
+        "their plane\n",
         options.model, count);
   }
   loaded.params = make_params(loaded.scene, settings_of(options, built.mesh, loaded.scene));
