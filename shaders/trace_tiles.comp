@@ -2,6 +2,11 @@
 // Traces a frame by the lists of the subpatches whose projections overlap each tile of the image. Rays that Newton's
 // method leaves undecided are queued for trace_undecided.comp, so that the other rays of their subgroup do not wait for
 // them here.
+//
+// Newton's method is a loop that the lanes of a subgroup leave at different times, and operations of the subgroup follow
+// it. All lanes enter that loop together and none ends in it, so that they are together again where the device lets a
+// kernel ask for that (vk/capabilities.h); on others structured control flow has them meet where it ends, though Vulkan
+// does not promise it.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require

@@ -22,6 +22,8 @@ constexpr Extension kAddresses{VK_KHR_BUFFER_DEVICE_ADDRESS_EXTENSION_NAME, VK_A
 constexpr Extension kFloatControls{VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME, VK_API_VERSION_1_2};
 constexpr Extension kDriverProperties{VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME, VK_API_VERSION_1_2};
 constexpr Extension kSubgroupSize{VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME, VK_API_VERSION_1_3};
+constexpr Extension kReconvergence{VK_KHR_SHADER_SUBGROUP_UNIFORM_CONTROL_FLOW_EXTENSION_NAME,
+                                   kNeverCore};
 constexpr Extension kDeviceFault{VK_EXT_DEVICE_FAULT_EXTENSION_NAME, kNeverCore};
 
 // What ray queries need beside buffer addresses.
@@ -200,6 +202,8 @@ Capabilities capabilities_of(VkPhysicalDevice device, uint32_t instance_version)
                   [&](const Extension& extension) { return offers(found, extension); });
   VkPhysicalDeviceSubgroupSizeControlFeatures subgroup_control{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES};
+  VkPhysicalDeviceShaderSubgroupUniformControlFlowFeaturesKHR reconvergence{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_SUBGROUP_UNIFORM_CONTROL_FLOW_FEATURES_KHR};
   VkPhysicalDeviceBufferDeviceAddressFeatures addresses{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES};
   VkPhysicalDeviceFaultFeaturesEXT faults{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FAULT_FEATURES_EXT};
@@ -210,6 +214,7 @@ Capabilities capabilities_of(VkPhysicalDevice device, uint32_t instance_version)
   VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
   Chain asked(features);
   asked.add_if(offers(found, kSubgroupSize), subgroup_control);
+  asked.add_if(offers(found, kReconvergence), reconvergence);
   asked.add_if(offers(found, kAddresses), addresses);
   asked.add_if(offers(found, kDeviceFault), faults);
   asked.add_if(has_queries, queries);
@@ -241,6 +246,7 @@ Capabilities capabilities_of(VkPhysicalDevice device, uint32_t instance_version)
     found.wants_frozen_constants = driver.driverID == VK_DRIVER_ID_GOOGLE_SWIFTSHADER;
   }
   found.subgroups = subgroups_of(subgroups, subgroup_control, subgroup_sizes);
+  found.subgroups.reconverge = reconvergence.shaderSubgroupUniformControlFlow == VK_TRUE;
   // Without independence a module must declare the modes of all widths alike.
   constexpr auto none = VK_SHADER_FLOAT_CONTROLS_INDEPENDENCE_NONE;
   found.floats = {
@@ -265,6 +271,7 @@ std::vector<const char*> extensions_for(const Capabilities& capabilities) {
     if (std::none_of(names.begin(), names.end(), is_it)) names.push_back(extension.name);
   };
   if (capabilities.buffer_addresses) add(kAddresses);
+  if (capabilities.subgroups.reconverge) add(kReconvergence);
   if (capabilities.fault_reports) add(kDeviceFault);
   if (capabilities.subgroups.least != 0 || capabilities.subgroups.full) add(kSubgroupSize);
   add(kFloatControls);

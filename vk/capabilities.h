@@ -48,6 +48,9 @@ struct SubgroupSupport {
   uint32_t least = 0;
   uint32_t most = 0;
   bool full = false;  // a kernel may ask for subgroups in which all invocations are there
+  // A kernel may ask that invocations of a subgroup that enter a loop or a branch together are
+  // together again after it (VK_KHR_shader_subgroup_uniform_control_flow).
+  bool reconverge = false;
 
   // Those that a kernel may ask for, in ascending order.
   [[nodiscard]] std::vector<uint32_t> sizes() const;

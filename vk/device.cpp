@@ -104,6 +104,10 @@ void Device::create(std::span<const char* const> surface_extensions) {
   subgroups.subgroupSizeControl = subgroups_.required ? VK_TRUE : VK_FALSE;
   subgroups.computeFullSubgroups = subgroups_.full ? VK_TRUE : VK_FALSE;
   enable_if(subgroups_.required || subgroups_.full, subgroups);
+  VkPhysicalDeviceShaderSubgroupUniformControlFlowFeaturesKHR reconvergence{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_SUBGROUP_UNIFORM_CONTROL_FLOW_FEATURES_KHR};
+  reconvergence.shaderSubgroupUniformControlFlow = VK_TRUE;
+  enable_if(capabilities_.subgroups.reconverge, reconvergence);
   VkPhysicalDeviceBufferDeviceAddressFeatures addresses{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES};
   addresses.bufferDeviceAddress = VK_TRUE;

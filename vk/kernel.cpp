@@ -12,10 +12,14 @@ Kernel::Kernel(const Device& device, std::span<const uint32_t> spirv, KernelInte
   constexpr VkShaderStageFlags stage = VK_SHADER_STAGE_COMPUTE_BIT;
   set_layout_ = make_set_layout(device, interface_, stage);
   layout_ = make_pipeline_layout(device, set_layout_.get(), interface_, stage);
+  const KernelFacts facts = facts_of(spirv);
   const bool frozen = device.capabilities().wants_frozen_constants;
-  const ShaderModule module =
-      frozen ? make_shader_module(device, with_frozen_constants(spirv, constants), floats)
-             : make_shader_module(device, spirv, floats);
+  ShaderCode code(spirv.begin(), spirv.end());
+  if (frozen) code = with_frozen_constants(code, constants);
+  if (facts.uses_subgroups && device.capabilities().subgroups.reconverge) {
+    code = with_reconverging_subgroups(code);
+  }
+  const ShaderModule module = make_shader_module(device, code, floats);
 
   std::vector<VkSpecializationMapEntry> entries;
   std::vector<uint32_t> values;
@@ -38,7 +42,6 @@ Kernel::Kernel(const Device& device, std::span<const uint32_t> spirv, KernelInte
   info.stage.pSpecializationInfo = &specialization;
   info.layout = layout_.get();
   // Kernels without subgroup operations are left to the driver, which may know a better size.
-  const KernelFacts facts = facts_of(spirv);
   const SubgroupChoice& subgroups = device.subgroups();
   VkPipelineShaderStageRequiredSubgroupSizeCreateInfo size{
       VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO};

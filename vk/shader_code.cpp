@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <spirv-tools/optimizer.hpp>
-#include <spirv/unified1/spirv.hpp11>
+#include <spirv/unified1/spirv.hpp>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
@@ -28,8 +28,9 @@ template <typename Visit>
 void for_each_instruction(std::span<const uint32_t> spirv, const Visit& visit) {
   for (std::size_t at = kHeaderWords; at < spirv.size();) {
     const std::size_t count = spirv[at] >> 16U;
-    if (count == 0 || at + count > spirv.size())
+    if (count == 0 || at + count > spirv.size()) {
       throw std::logic_error("a SPIR-V module is cut off");
+    }
     visit(spirv.subspan(at, count));
     at += count;
   }
@@ -76,10 +77,10 @@ Section section_of(Op op) {
 // Instructions to be added at the end of a section.
 using Additions = std::array<ShaderCode, 6>;
 
-void add(Additions& additions, Section section, Op op, std::initializer_list<uint32_t> operands) {
+void add(Additions& additions, Section section, Op op, const ShaderCode& operands) {
   ShaderCode& words = additions[static_cast<std::size_t>(section)];
   words.push_back(static_cast<uint32_t>(op) | static_cast<uint32_t>(operands.size() + 1) << 16U);
-  words.insert(words.end(), operands);
+  words.insert(words.end(), operands.begin(), operands.end());
 }
 
 ShaderCode with_additions(std::span<const uint32_t> spirv, const Additions& additions) {
@@ -120,13 +121,24 @@ bool rounds_floats(Op op) {
   }
 }
 
-// The characters of a literal string as words, with the zero that ends it.
-ShaderCode literal(const std::string& text) {
+void add_extension(Additions& additions, const std::string& text) {
+  // The characters with the zero that ends them.
   ShaderCode words(text.size() / 4 + 1, 0);
   for (std::size_t i = 0; i < text.size(); ++i) {
     words[i / 4] |= static_cast<uint32_t>(static_cast<unsigned char>(text[i])) << (8U * (i % 4));
   }
-  return words;
+  add(additions, Section::extensions, Op::OpExtension, words);
+}
+
+// Adds an execution mode with these operands to each entry point.
+void add_mode(Additions& additions, std::span<const uint32_t> spirv, spv::ExecutionMode mode,
+              const ShaderCode& operands) {
+  for_each_instruction(spirv, [&](Instruction instruction) {
+    if (opcode(instruction) != Op::OpEntryPoint) return;
+    ShaderCode all{instruction[2], static_cast<uint32_t>(mode)};
+    all.insert(all.end(), operands.begin(), operands.end());
+    add(additions, Section::execution_modes, Op::OpExecutionMode, all);
+  });
 }
 
 }  // namespace
@@ -135,11 +147,11 @@ KernelFacts facts_of(std::span<const uint32_t> spirv) {
   KernelFacts facts;
   for_each_instruction(spirv, [&](Instruction instruction) {
     if (opcode(instruction) == Op::OpCapability &&
-        static_cast<spv::Capability>(instruction[1]) == spv::Capability::GroupNonUniform) {
+        static_cast<spv::Capability>(instruction[1]) == spv::CapabilityGroupNonUniform) {
       facts.uses_subgroups = true;
     }
     if (opcode(instruction) == Op::OpExecutionMode &&
-        static_cast<spv::ExecutionMode>(instruction[2]) == spv::ExecutionMode::LocalSize) {
+        static_cast<spv::ExecutionMode>(instruction[2]) == spv::ExecutionModeLocalSize) {
       facts.workgroup_x = instruction[3];
     }
   });
@@ -147,7 +159,7 @@ KernelFacts facts_of(std::span<const uint32_t> spirv) {
 }
 
 ShaderCode with_exact_floats(std::span<const uint32_t> spirv) {
-  constexpr auto exact = static_cast<uint32_t>(spv::Decoration::NoContraction);
+  constexpr auto exact = static_cast<uint32_t>(spv::DecorationNoContraction);
   std::vector<bool> decorated(spirv[kBoundWord], false);
   Additions additions;
   for_each_instruction(spirv, [&](Instruction instruction) {
@@ -167,30 +179,30 @@ ShaderCode with_float_controls(std::span<const uint32_t> spirv, const FloatContr
     spv::ExecutionMode mode;
   };
   const std::array modes{
-      Mode{controls.rounds_to_nearest_even, spv::Capability::RoundingModeRTE,
-           spv::ExecutionMode::RoundingModeRTE},
-      Mode{controls.preserves_signed_zero_inf_nan, spv::Capability::SignedZeroInfNanPreserve,
-           spv::ExecutionMode::SignedZeroInfNanPreserve},
-      Mode{controls.preserves_denormals, spv::Capability::DenormPreserve,
-           spv::ExecutionMode::DenormPreserve}};
+      Mode{controls.rounds_to_nearest_even, spv::CapabilityRoundingModeRTE,
+           spv::ExecutionModeRoundingModeRTE},
+      Mode{controls.preserves_signed_zero_inf_nan, spv::CapabilitySignedZeroInfNanPreserve,
+           spv::ExecutionModeSignedZeroInfNanPreserve},
+      Mode{controls.preserves_denormals, spv::CapabilityDenormPreserve,
+           spv::ExecutionModeDenormPreserve}};
   if (std::none_of(modes.begin(), modes.end(), [](const Mode& mode) { return mode.has; })) {
     return {spirv.begin(), spirv.end()};
   }
   Additions additions;
-  ShaderCode& extensions = additions[static_cast<std::size_t>(Section::extensions)];
-  extensions = literal("SPV_KHR_float_controls");
-  extensions.insert(extensions.begin(), static_cast<uint32_t>(Op::OpExtension) |
-                                            static_cast<uint32_t>(extensions.size() + 1) << 16U);
+  add_extension(additions, "SPV_KHR_float_controls");
   for (const Mode& mode : modes) {
     if (!mode.has) continue;
     add(additions, Section::capabilities, Op::OpCapability,
         {static_cast<uint32_t>(mode.capability)});
-    for_each_instruction(spirv, [&](Instruction instruction) {
-      if (opcode(instruction) != Op::OpEntryPoint) return;
-      add(additions, Section::execution_modes, Op::OpExecutionMode,
-          {instruction[2], static_cast<uint32_t>(mode.mode), 32U});
-    });
+    add_mode(additions, spirv, mode.mode, {32U});
   }
+  return with_additions(spirv, additions);
+}
+
+ShaderCode with_reconverging_subgroups(std::span<const uint32_t> spirv) {
+  Additions additions;
+  add_extension(additions, "SPV_KHR_subgroup_uniform_control_flow");
+  add_mode(additions, spirv, spv::ExecutionModeSubgroupUniformControlFlowKHR, {});
   return with_additions(spirv, additions);
 }
 

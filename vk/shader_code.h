@@ -37,6 +37,10 @@ ShaderCode with_exact_floats(std::span<const uint32_t> spirv);
 // (SPV_KHR_float_controls), those that the device has.
 ShaderCode with_float_controls(std::span<const uint32_t> spirv, const FloatControls& controls);
 
+// With the execution mode SubgroupUniformControlFlowKHR (SPV_KHR_subgroup_uniform_control_flow):
+// see SubgroupSupport::reconverge.
+ShaderCode with_reconverging_subgroups(std::span<const uint32_t> spirv);
+
 // With these values, or else their defaults, in place of the specialisation constants, and without
 // the branches that are never taken then. Throws std::runtime_error if SPIRV-Tools cannot do it.
 ShaderCode with_frozen_constants(std::span<const uint32_t> spirv,

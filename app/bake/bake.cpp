@@ -66,8 +66,9 @@ Triangle bake_triangle(const std::array<dvec3, 3>& positions, const std::array<d
   dvec3 n = glm::cross(P[1] - P[0], P[2] - P[0]);
   // If rounding has flattened the triangle to a line, its face normal is that of before. If it was
   // a line before, for it is tiny and far from the scene's origin, any normal will do.
-  if (n == dvec3(0.0))
+  if (n == dvec3(0.0)) {
     n = scaled(glm::cross(positions[1] - positions[0], positions[2] - positions[0]));
+  }
   if (n == dvec3(0.0)) n = N[0];
   n = glm::normalize(n);
   double longest = 0.0;

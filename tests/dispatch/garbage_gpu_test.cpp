@@ -44,22 +44,22 @@ void expect_to_end(const SurfaceChoice& surface, Accel accel, bool shadows) {
   }
 }
 
-constexpr SurfaceChoice kPhong{SURFACE_PHONG, 0.65, SHELL_HEIGHT};
-constexpr SurfaceChoice kSphere{SURFACE_SPHERE, 0.65, SHELL_NORMAL};
+constexpr SurfaceChoice kPhongHeight{SURFACE_PHONG, 0.65, SHELL_HEIGHT};
+constexpr SurfaceChoice kSphereNormal{SURFACE_SPHERE, 0.65, SHELL_NORMAL};
 
 TEST_F(GarbageOnTheDevice, EndsWithinItsBoundByTheList) {
-  expect_to_end(kPhong, Accel::list, true);
-  expect_to_end(kSphere, Accel::list, true);
+  expect_to_end(kPhongHeight, Accel::list, true);
+  expect_to_end(kSphereNormal, Accel::list, true);
 }
 
 TEST_F(GarbageOnTheDevice, EndsWithinItsBoundByTiles) {
-  expect_to_end(kPhong, Accel::tiles, false);
-  expect_to_end(kSphere, Accel::tiles, false);
+  expect_to_end(kPhongHeight, Accel::tiles, false);
+  expect_to_end(kSphereNormal, Accel::tiles, false);
 }
 
 TEST_F(GarbageOnTheDevice, EndsWithinItsBoundByTheTree) {
-  expect_to_end(kPhong, Accel::bvh, true);
-  expect_to_end(kSphere, Accel::bvh, true);
+  expect_to_end(kPhongHeight, Accel::bvh, true);
+  expect_to_end(kSphereNormal, Accel::bvh, true);
 }
 
 TEST_F(GarbageOnTheDevice, EndsForCastRays) {

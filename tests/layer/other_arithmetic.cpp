@@ -6,7 +6,7 @@
 #include <optional>
 #include <random>
 #include <set>
-#include <spirv/unified1/spirv.hpp11>
+#include <spirv/unified1/spirv.hpp>
 #include <stdexcept>
 #include <utility>
 
@@ -55,8 +55,9 @@ class Rewriter {
     for (const Words& instruction : rest) rewrite(instruction);
     Words out = header_;
     for (const auto& part : {declarations_, functions_}) {
-      for (const Words& instruction : part)
+      for (const Words& instruction : part) {
         out.insert(out.end(), instruction.begin(), instruction.end());
+      }
     }
     out[kBoundWord] = header_[kBoundWord];
     return out;
@@ -77,8 +78,8 @@ class Rewriter {
           types_[Words(words.begin() + 2, words.end())].emplace(opcode(words), words[1]);
           break;
         case Op::OpDecorate:
-          if (static_cast<spv::Decoration>(words[2]) == spv::Decoration::BuiltIn &&
-              static_cast<spv::BuiltIn>(words[3]) == spv::BuiltIn::SubgroupSize) {
+          if (static_cast<spv::Decoration>(words[2]) == spv::DecorationBuiltIn &&
+              static_cast<spv::BuiltIn>(words[3]) == spv::BuiltInSubgroupSize) {
             sizes_.insert(words[1]);
           }
           break;
@@ -113,9 +114,8 @@ class Rewriter {
 
   uint32_t doubles(uint32_t components) {
     if (!has_doubles_) {
-      declarations_.insert(
-          declarations_.begin(),
-          make(Op::OpCapability, {static_cast<uint32_t>(spv::Capability::Float64)}));
+      declarations_.insert(declarations_.begin(),
+                           make(Op::OpCapability, {static_cast<uint32_t>(spv::CapabilityFloat64)}));
     }
     has_doubles_ = true;
     return vector_or(type(Op::OpTypeFloat, {64U}), components);

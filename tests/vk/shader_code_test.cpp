@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 #include <spirv-tools/libspirv.hpp>
-#include <spirv/unified1/spirv.hpp11>
+#include <spirv/unified1/spirv.hpp>
 #include <string>
 #include <vector>
 
@@ -54,7 +54,7 @@ std::vector<std::string> inexact(std::span<const uint32_t> spirv) {
       float_types.insert(instruction[1]);
     }
     if (op == Op::OpDecorate &&
-        static_cast<spv::Decoration>(instruction[2]) == spv::Decoration::NoContraction) {
+        static_cast<spv::Decoration>(instruction[2]) == spv::DecorationNoContraction) {
       exact.insert(instruction[1]);
     }
   }
@@ -141,13 +141,13 @@ TEST(FloatControls, AreDeclaredAsFarAsTheDeviceHasThem) {
           capabilities.insert(static_cast<spv::Capability>(instruction[1]));
         }
       }
-      EXPECT_EQ(modes.count(spv::ExecutionMode::RoundingModeRTE),
+      EXPECT_EQ(modes.count(spv::ExecutionModeRoundingModeRTE),
                 controls.rounds_to_nearest_even ? 1U : 0U);
-      EXPECT_EQ(modes.count(spv::ExecutionMode::SignedZeroInfNanPreserve),
+      EXPECT_EQ(modes.count(spv::ExecutionModeSignedZeroInfNanPreserve),
                 controls.preserves_signed_zero_inf_nan ? 1U : 0U);
-      EXPECT_EQ(modes.count(spv::ExecutionMode::DenormPreserve),
+      EXPECT_EQ(modes.count(spv::ExecutionModeDenormPreserve),
                 controls.preserves_denormals ? 1U : 0U);
-      EXPECT_EQ(capabilities.count(spv::Capability::RoundingModeRTE),
+      EXPECT_EQ(capabilities.count(spv::CapabilityRoundingModeRTE),
                 controls.rounds_to_nearest_even ? 1U : 0U);
     }
   }
@@ -156,6 +156,18 @@ TEST(FloatControls, AreDeclaredAsFarAsTheDeviceHasThem) {
 TEST(FloatControls, ChangeNothingWhereTheDeviceHasNone) {
   const std::span<const uint32_t> spirv = spirv_of("trace_list");
   EXPECT_EQ(with_float_controls(spirv, {}), ShaderCode(spirv.begin(), spirv.end()));
+}
+
+TEST(ReconvergingSubgroups, AreAskedForOnce) {
+  const ShaderCode code = with_reconverging_subgroups(spirv_of("trace_tiles"));
+  EXPECT_EQ(faults(code, false), "");
+  int modes = 0;
+  for (const auto& instruction : Module(code).instructions) {
+    const bool is_mode = Module::op(instruction) == Op::OpExecutionMode;
+    modes += is_mode && static_cast<spv::ExecutionMode>(instruction[2]) ==
+                            spv::ExecutionModeSubgroupUniformControlFlowKHR;
+  }
+  EXPECT_EQ(modes, 1);
 }
 
 TEST(FrozenConstants, LeaveNoConstantToTheDriver) {
