@@ -45,14 +45,6 @@ std::string text_of(const VkDeviceFaultVendorInfoEXT& info) {
 
 }  // namespace
 
-bool can_report_faults(VkPhysicalDevice device) {
-  VkPhysicalDeviceFaultFeaturesEXT faults{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FAULT_FEATURES_EXT};
-  VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-  features.pNext = &faults;
-  vkGetPhysicalDeviceFeatures2(device, &features);
-  return faults.deviceFault == VK_TRUE;
-}
-
 std::string fault_report(VkDevice device, PFN_vkGetDeviceFaultInfoEXT get) {
   VkDeviceFaultCountsEXT counts{VK_STRUCTURE_TYPE_DEVICE_FAULT_COUNTS_EXT};
   if (get(device, &counts, nullptr) != VK_SUCCESS) return "";

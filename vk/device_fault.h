@@ -7,9 +7,6 @@
 
 namespace trisect::gpu {
 
-// Whether the device has the extension's feature `deviceFault`. The extension must be there.
-bool can_report_faults(VkPhysicalDevice device);
-
 // The report on a device that is lost: the driver's description, the addresses and the vendor's
 // codes, in one line. Empty if the driver has nothing to say. get: vkGetDeviceFaultInfoEXT.
 std::string fault_report(VkDevice device, PFN_vkGetDeviceFaultInfoEXT get);

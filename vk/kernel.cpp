@@ -6,6 +6,7 @@
 #include "vk/result.h"
 
 namespace trisect::gpu {
+
 Kernel::Kernel(const Device& device, std::span<const uint32_t> spirv, KernelInterface interface,
                const std::vector<Specialization>& constants, const std::string& name, Floats floats)
     : interface_(std::move(interface)) {
