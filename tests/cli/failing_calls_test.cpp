@@ -58,7 +58,8 @@ TEST(FailingCalls, AreToldByKindWithEveryAcceleration) {
 TEST(FailingCalls, AreToldByOtherCommands) {
   const FailingCommand devices({"devices"});
   const std::vector<Fault> all = test::every_call(devices.calls());
-  EXPECT_EQ(all.size(), 3U);
+  // The instance's, two for the list of devices, and two for each one's extensions.
+  EXPECT_GE(all.size(), 5U);
   for (const test::FaultyRun& run : devices.run_all(all)) test::expect_told(run);
 
   const FailingCommand bench({"bench", "speed", test::asset_path("sphere-20"), "--surface", "phong",
