@@ -243,7 +243,7 @@ Capabilities capabilities_of(VkPhysicalDevice device, uint32_t instance_version)
     found.driver = driver.driverName;
     // SwiftShader's is empty.
     if (driver.driverInfo[0] != '\0') found.driver += std::string(", ") + driver.driverInfo;
-    found.wants_frozen_constants = driver.driverID == VK_DRIVER_ID_GOOGLE_SWIFTSHADER;
+    found.wants_specialized_code = driver.driverID == VK_DRIVER_ID_GOOGLE_SWIFTSHADER;
   }
   found.subgroups = subgroups_of(subgroups, subgroup_control, subgroup_sizes);
   found.subgroups.reconverge = reconvergence.shaderSubgroupUniformControlFlow == VK_TRUE;

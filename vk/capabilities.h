@@ -86,9 +86,10 @@ struct Capabilities {
   // What follows is false or 0 for a device of Vulkan 1.0, which cannot be used.
   SubgroupSupport subgroups;
   FloatControls floats;
-  // SwiftShader compiles the code that specialisation constants rule out, too: a kernel takes it
-  // half the time if they are plain constants before. Other drivers gain nothing.
-  bool wants_frozen_constants = false;
+  // SwiftShader compiles the code that specialisation constants rule out, too, and gives each local
+  // variable its own place on the stack. Beyond the stack's limit vkCreateComputePipelines crashes;
+  // below it, a kernel takes half the time if specialized() has seen it. lavapipe gains nothing.
+  bool wants_specialized_code = false;
   bool buffer_addresses = false;
   bool fault_reports = false;  // of a lost device (VK_EXT_device_fault)
   bool ray_queries = false;

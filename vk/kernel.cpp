@@ -14,9 +14,13 @@ Kernel::Kernel(const Device& device, std::span<const uint32_t> spirv, KernelInte
   set_layout_ = make_set_layout(device, interface_, stage);
   layout_ = make_pipeline_layout(device, set_layout_.get(), interface_, stage);
   const KernelFacts facts = facts_of(spirv);
-  const bool frozen = device.capabilities().wants_frozen_constants;
+  const bool specialize = device.capabilities().wants_specialized_code;
   ShaderCode code(spirv.begin(), spirv.end());
-  if (frozen) code = with_frozen_constants(code, constants);
+  if (specialize) {
+    // Before SPIRV-Tools could fold what is to be exact.
+    if (floats == Floats::exact) code = with_exact_floats(code);
+    code = specialized(code, constants);
+  }
   if (facts.uses_subgroups && device.capabilities().subgroups.reconverge) {
     code = with_reconverging_subgroups(code);
   }
@@ -24,7 +28,7 @@ Kernel::Kernel(const Device& device, std::span<const uint32_t> spirv, KernelInte
 
   std::vector<VkSpecializationMapEntry> entries;
   std::vector<uint32_t> values;
-  for (const Specialization& constant : frozen ? std::vector<Specialization>{} : constants) {
+  for (const Specialization& constant : specialize ? std::vector<Specialization>{} : constants) {
     const auto offset = static_cast<uint32_t>(values.size() * sizeof(uint32_t));
     entries.push_back({constant.constant_id, offset, sizeof(uint32_t)});
     values.push_back(constant.value);

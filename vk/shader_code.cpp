@@ -206,8 +206,8 @@ ShaderCode with_reconverging_subgroups(std::span<const uint32_t> spirv) {
   return with_additions(spirv, additions);
 }
 
-ShaderCode with_frozen_constants(std::span<const uint32_t> spirv,
-                                 const std::vector<Specialization>& constants) {
+ShaderCode specialized(std::span<const uint32_t> spirv,
+                       const std::vector<Specialization>& constants) {
   std::unordered_map<uint32_t, std::vector<uint32_t>> values;
   for (const Specialization& constant : constants) {
     values[constant.constant_id] = {constant.value};
@@ -216,20 +216,32 @@ ShaderCode with_frozen_constants(std::span<const uint32_t> spirv,
   spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_1_SPIRV_1_4);
   optimizer.SetMessageConsumer([&](spv_message_level_t, const char*, const spv_position_t&,
                                    const char* message) { messages += message; });
+  // Many constants reach a branch as a function's argument or within a struct. Only where functions
+  // are inlined and structs are taken apart does the branch go.
+  constexpr uint32_t of_any_size = 0;
   optimizer.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(values))
       .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
       .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass())
       .RegisterPass(spvtools::CreateDeadBranchElimPass())
+      .RegisterPass(spvtools::CreateMergeReturnPass())
+      .RegisterPass(spvtools::CreateInlineExhaustivePass())
       .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
+      .RegisterPass(spvtools::CreateScalarReplacementPass(of_any_size))
+      .RegisterPass(spvtools::CreateLocalAccessChainConvertPass())
+      .RegisterPass(spvtools::CreateLocalSingleStoreElimPass())
+      .RegisterPass(spvtools::CreateSSARewritePass())
+      .RegisterPass(spvtools::CreateCCPPass())
+      .RegisterPass(spvtools::CreateDeadBranchElimPass())
+      .RegisterPass(spvtools::CreateSimplificationPass())
       .RegisterPass(spvtools::CreateAggressiveDCEPass());
   spvtools::OptimizerOptions options;
   // The build has validated the module.
   options.set_run_validator(false);
-  ShaderCode frozen;
-  if (!optimizer.Run(spirv.data(), spirv.size(), &frozen, options)) {
-    throw std::runtime_error("SPIRV-Tools did not freeze the constants of a shader: " + messages);
+  ShaderCode code;
+  if (!optimizer.Run(spirv.data(), spirv.size(), &code, options)) {
+    throw std::runtime_error("SPIRV-Tools could not specialise a shader: " + messages);
   }
-  return frozen;
+  return code;
 }
 
 }  // namespace trisect::gpu

@@ -41,9 +41,10 @@ ShaderCode with_float_controls(std::span<const uint32_t> spirv, const FloatContr
 // see SubgroupSupport::reconverge.
 ShaderCode with_reconverging_subgroups(std::span<const uint32_t> spirv);
 
-// With these values, or else their defaults, in place of the specialisation constants, and without
-// the branches that are never taken then. Throws std::runtime_error if SPIRV-Tools cannot do it.
-ShaderCode with_frozen_constants(std::span<const uint32_t> spirv,
-                                 const std::vector<Specialization>& constants);
+// With these values, or else their defaults, in place of the specialisation constants, and with
+// only the code that they leave, in one function. Operations that have NoContraction keep it, and
+// are not folded. Throws std::runtime_error if SPIRV-Tools cannot do it.
+ShaderCode specialized(std::span<const uint32_t> spirv,
+                       const std::vector<Specialization>& constants);
 
 }  // namespace trisect::gpu

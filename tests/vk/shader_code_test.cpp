@@ -108,11 +108,15 @@ std::vector<FloatControls> all_controls() {
   return all;
 }
 
+// Whether a kernel's floats are to be exact. What a window shows has 8 bits a component; and some
+// kernels measure what a driver makes of all operations.
+bool is_exact(const KernelSource& kernel) {
+  return kernel.interface != Interface::screen && kernel.interface != Interface::floats;
+}
+
 TEST(ExactFloats, LeavesNoOperationOfAKernelToTheDriver) {
   for (const KernelSource& kernel : kernel_sources()) {
-    // What a window shows has 8 bits a component. And these measure what a driver makes of all of
-    // them.
-    if (kernel.interface == Interface::screen || kernel.interface == Interface::floats) continue;
+    if (!is_exact(kernel)) continue;
     EXPECT_EQ(inexact(with_exact_floats(kernel.spirv)), std::vector<std::string>{}) << kernel.name;
   }
   // The test sees what is inexact.
@@ -170,11 +174,11 @@ TEST(ReconvergingSubgroups, AreAskedForOnce) {
   EXPECT_EQ(modes, 1);
 }
 
-TEST(FrozenConstants, LeaveNoConstantToTheDriver) {
+TEST(Specialized, LeavesNoConstantToTheDriver) {
   const std::vector<Specialization> constants{
       {CONSTANT_SURFACE, SURFACE_SPHERE}, {CONSTANT_SOLVER, SOLVER_ROBUST}, {CONSTANT_AOVS, 1U}};
   for (const KernelSource& kernel : kernel_sources()) {
-    const ShaderCode code = with_frozen_constants(kernel.spirv, constants);
+    const ShaderCode code = specialized(kernel.spirv, constants);
     EXPECT_EQ(faults(code, kernel.ray_queries), "") << kernel.name;
     const Module module(code);
     for (const Op op : {Op::OpSpecConstant, Op::OpSpecConstantTrue, Op::OpSpecConstantFalse,
@@ -184,13 +188,49 @@ TEST(FrozenConstants, LeaveNoConstantToTheDriver) {
   }
 }
 
-TEST(FrozenConstants, RuleOutWhatTheirValuesDo) {
+// What rounds must round once and where it is written: its exactness outlives the passes.
+TEST(Specialized, KeepsFloatsExact) {
+  for (const KernelSource& kernel : kernel_sources()) {
+    if (!is_exact(kernel)) continue;
+    EXPECT_EQ(inexact(specialized(with_exact_floats(kernel.spirv), {})), std::vector<std::string>{})
+        << kernel.name;
+  }
+}
+
+std::size_t operations(const ShaderCode& code) {
+  return Module(code).instructions.size();
+}
+
+// A surface reaches its branches as a member of a struct, whether patches may be nonsmooth as an
+// argument.
+TEST(Specialized, RulesOutWhatTheConstantsDo) {
   const std::span<const uint32_t> spirv = spirv_of("trace_list");
-  const ShaderCode bisect = with_frozen_constants(spirv, {{CONSTANT_SOLVER, SOLVER_BISECT}});
-  const ShaderCode robust = with_frozen_constants(spirv, {{CONSTANT_SOLVER, SOLVER_ROBUST}});
-  const auto functions = [](const ShaderCode& code) { return Module(code).count(Op::OpFunction); };
-  EXPECT_LT(functions(bisect), functions(robust));
-  EXPECT_LT(functions(robust), Module(spirv).count(Op::OpFunction));
+  const auto with = [&](uint32_t surface, uint32_t solver, uint32_t nonsmooth) {
+    return operations(specialized(
+        spirv,
+        {{CONSTANT_SURFACE, surface}, {CONSTANT_SOLVER, solver}, {CONSTANT_NONSMOOTH, nonsmooth}}));
+  };
+  const std::size_t all = with(SURFACE_SPHERE, SOLVER_ROBUST, 1);
+  EXPECT_LT(with(SURFACE_SPHERE, SOLVER_ROBUST, 0), all);
+  EXPECT_LT(with(SURFACE_PHONG, SOLVER_ROBUST, 0), with(SURFACE_SPHERE, SOLVER_ROBUST, 0));
+  EXPECT_LT(with(SURFACE_SPHERE, SOLVER_BISECT, 0), with(SURFACE_SPHERE, SOLVER_ROBUST, 0));
+}
+
+// A driver that gives each local variable a place on the stack finds few: SwiftShader crashes at
+// too many.
+TEST(Specialized, LeavesFewVariables) {
+  const ShaderCode code = specialized(
+      spirv_of("trace_list"),
+      {{CONSTANT_SURFACE, SURFACE_SPHERE}, {CONSTANT_AOVS, 1U}, {CONSTANT_NONSMOOTH, 1U}});
+  const Module module(code);
+  EXPECT_EQ(module.count(Op::OpFunction), 1U);
+  int locals = 0;
+  for (const auto& instruction : module.instructions) {
+    locals += Module::op(instruction) == Op::OpVariable &&
+              static_cast<spv::StorageClass>(instruction[3]) == spv::StorageClassFunction;
+  }
+  // Of thousands. What stays are arrays with an index that is not constant.
+  EXPECT_LT(locals, 100);
 }
 
 TEST(ShaderCode, OfACutOffModuleIsRefused) {
