@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "app/base/ulp.h"
 #include "app/oracle/oracle_tracer.h"
 
 namespace trisect {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-#include "app/accuracy/ulp.h"
+#include "app/base/ulp.h"
 #include "app/buffers/float_operations.h"
 #include "app/buffers/kernels.h"
 #include "vk/commands.h"

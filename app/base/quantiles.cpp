@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace trisect {
 
@@ -11,11 +10,6 @@ Quantiles quantiles_of(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t last = values.size() - 1;
   return {values[last / 2], values[(last * 99 + 99) / 100], values[last]};
-}
-
-double ulp_of(float x) {
-  return static_cast<double>(std::nextafter(std::abs(x), std::numeric_limits<float>::infinity())) -
-         static_cast<double>(std::abs(x));
 }
 
 double degrees_between(const glm::dvec3& a, const glm::dvec3& b) {

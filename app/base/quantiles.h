@@ -1,4 +1,4 @@
-// Quantiles of measured errors, and the units that errors are measured in.
+// Quantiles of measured errors, and the angle, one of their units.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -15,9 +15,6 @@ struct Quantiles {
 };
 
 Quantiles quantiles_of(std::vector<double> values);
-
-// The distance from |x| to the next larger number in single precision.
-double ulp_of(float x);
 
 // The angle between two vectors in degrees, from 0 to 180; small angles are as accurate as large
 // ones.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/accuracy/accuracy.h"
+#include "app/base/ulp.h"
 #include "app/crosscheck/frame_comparison.h"
 
 namespace trisect::bench {

@@ -8,6 +8,7 @@
 
 #include "app/base/error.h"
 #include "app/base/max_propagating_nan.h"
+#include "app/base/ulp.h"
 
 namespace trisect {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/accuracy/ulp.h"
+#include "app/base/ulp.h"
 
 #include <algorithm>
 #include <cmath>
