@@ -1,7 +1,7 @@
 // Intersects the rays of a subgroup with one subpatch by Newton's method alone. near: whether this invocation's ray is to be
-// intersected; the others take part in the control flow only. A ray that Newton's method cannot decide becomes undecided.
+// intersected; the others take part in the control flow only. What Newton's method cannot decide becomes pending.
 void intersect_quickly(Triangle tri, uint triangle, SubpatchBounds bounds, FramedPatch framed, uint subpatch,
-                       PixelRay ray, float tolerance, bool near, inout Traversal traversal, inout bool undecided) {
+                       PixelRay ray, float tolerance, bool near, inout Traversal traversal, inout Pending pending) {
   // Without a cone Newton's method takes no step, so that a ray that is not near costs none.
   bounds.cone.w = near ? bounds.cone.w : NO_CONE;
   precise float z;
@@ -9,6 +9,6 @@ void intersect_quickly(Triangle tri, uint triangle, SubpatchBounds bounds, Frame
   uint found = intersect_by_newton(scene_shape(), tri, bounds, framed, ray.view, tolerance, z, weights,
                                    traversal.counts.evaluations);
   if (COUNTS && near) ++traversal.counts.candidates;
-  if (near && found == UNDECIDED) undecided = true;
+  add_pending(subpatch, near && found == UNDECIDED, pending);
   if (near && found == FOUND_ROOT) keep_nearest(z, weights, triangle, subpatch, ray.nearest, traversal.hit);
 }

@@ -31,6 +31,7 @@ void pause(uint place, uint ray, Traversal traversal) {
   paused[place].path = traversal.path;
   paused[place].evaluations = traversal.counts.evaluations;
   paused[place].candidates = traversal.counts.candidates;
+  paused[place].pending_count = 0u;
 }
 
 // Stores a traversal at the next place of the half that is being filled.

@@ -330,22 +330,12 @@ bool is_searchable(FramedPatch framed, SubpatchBounds bounds, real tolerance) {
   return size < LARGEST;
 }
 
-// The roots of a ray in one subpatch, from the node traversal.path on: the nearest one beyond `nearest` that comes before
-// traversal.hit becomes it. Afterwards traversal.path is WHOLE if the search is finished, or else the node at which the
-// steps ran out. `view`: the ray's direction in the scene's axes, of unit length. `may_be_nonsmooth`: whether any subpatch
-// of the scene is marked NONSMOOTH; a constant, by which kernels leave the code for those out.
-void intersect_subpatch(Shape shape, bool may_be_nonsmooth, Triangle tri, SubpatchBounds bounds, uint subpatch,
-                        RayFrame frame, vec3 view, real nearest, INOUT(Traversal) traversal) {
-  FramedPatch framed = sheared_patch(frame, rotated_patch(frame, shape.shell, tri));
-  real tolerance = position_tolerance(frame, tri);
-  if (traversal.path == WHOLE) {
-    real z;
-    vec3 weights;
-    uint found =
-        intersect_by_newton(shape, tri, bounds, framed, view, tolerance, z, weights, traversal.counts.evaluations);
-    if (found == FOUND_ROOT) keep_nearest(z, weights, bounds.triangle, subpatch, nearest, traversal.hit);
-    if (found != UNDECIDED) return;
-  }
+// The roots of a ray in a subpatch that intersect_by_newton leaves undecided, from the node traversal.path on: the nearest
+// one beyond `nearest` that comes before traversal.hit becomes it. Afterwards traversal.path is WHOLE if the search is
+// finished, or else the node at which the steps ran out. `may_be_nonsmooth`: whether any subpatch of the scene is marked
+// NONSMOOTH; a constant, by which kernels leave the code for those out.
+void search_subpatch(Shape shape, bool may_be_nonsmooth, Triangle tri, SubpatchBounds bounds, uint subpatch,
+                     RayFrame frame, FramedPatch framed, real tolerance, real nearest, INOUT(Traversal) traversal) {
   if (bounds.is_flat == 1u) {
     intersect_flat(framed, bounds.triangle, subpatch, tolerance, nearest, traversal.hit);
     return;
@@ -405,4 +395,21 @@ void intersect_subpatch(Shape shape, bool may_be_nonsmooth, Triangle tri, Subpat
       }
     }
   } while (traversal.path != WHOLE && traversal.steps > 0);
+}
+
+// The roots of a ray in one subpatch, as above, but with intersect_by_newton first. `view`: the ray's direction in the
+// scene's axes, of unit length.
+void intersect_subpatch(Shape shape, bool may_be_nonsmooth, Triangle tri, SubpatchBounds bounds, uint subpatch,
+                        RayFrame frame, vec3 view, real nearest, INOUT(Traversal) traversal) {
+  FramedPatch framed = sheared_patch(frame, rotated_patch(frame, shape.shell, tri));
+  real tolerance = position_tolerance(frame, tri);
+  if (traversal.path == WHOLE) {
+    real z;
+    vec3 weights;
+    uint found =
+        intersect_by_newton(shape, tri, bounds, framed, view, tolerance, z, weights, traversal.counts.evaluations);
+    if (found == FOUND_ROOT) keep_nearest(z, weights, bounds.triangle, subpatch, nearest, traversal.hit);
+    if (found != UNDECIDED) return;
+  }
+  search_subpatch(shape, may_be_nonsmooth, tri, bounds, subpatch, frame, framed, tolerance, nearest, traversal);
 }

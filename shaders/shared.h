@@ -117,6 +117,10 @@ struct TraceParams {
   uint subpatch_count;
 };
 
+// Most subpatches that Newton's method may leave undecided for a ray before the ray has to go
+// through all candidates again.
+const uint MOST_PENDING = 8u;
+
 // A ray whose traversal pauses after a number of steps, to go on in the next submit. No submit may
 // take too long, or the driver takes the device for lost, and llvmpipe ends all loops of a subgroup
 // after 65535 iterations without an error.
@@ -129,7 +133,9 @@ struct PausedRay {
   uint path;      // and Traversal::path
   uint evaluations;
   uint candidates;
-  uint padding;
+  // If not 0, so many subpatches are all that is left to search, and `item` is not used.
+  uint pending_count;
+  uint pending[MOST_PENDING];  // the last one comes first
 };
 
 // The counters of a submit, for the host to read.
@@ -275,7 +281,7 @@ const float ERROR_WRONG = -3.0;      // a hit instead of a miss, or the other wa
 // Workgroups are TILE_SIZE x TILE_SIZE pixels.
 #define TILE_SIZE 8
 // Most subpatches of a tile's list. The rays of a tile with more go through all subpatches.
-#define TILE_CAPACITY 64
+#define TILE_CAPACITY 128
 // Subpatches that a workgroup projects or enters into lists, one for each invocation, and the rows
 // of tiles that an invocation goes through.
 #define SUBPATCH_GROUP_SIZE 64

@@ -1,6 +1,6 @@
 #version 450
 // Traces a frame by the scene's BVH for packets of rays: the rays of a subgroup traverse it together, into every box that
-// one of them may meet. Rays that Newton's method leaves undecided are queued for trace_bvh.comp, so that the other rays
+// one of them may meet. Rays that Newton's method leaves undecided are queued for trace_pending.comp, so that the other rays
 // of their packet do not wait for them here.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
@@ -20,12 +20,13 @@ layout(local_size_x = TILE_SIZE * TILE_SIZE) in;
 #include "trace.glsl"
 #include "write_pixel.glsl"
 #include "queue.glsl"
+#include "pending.glsl"
 #include "intersect_quickly.glsl"
 #include "broadcast.glsl"
 #include "packets.glsl"
 
 // Intersects all rays of the subgroup with one subpatch; near: whether this invocation's ray meets its ball.
-void intersect_packet(uint subpatch, PixelRay ray, bool near, inout Traversal traversal, inout bool undecided) {
+void intersect_packet(uint subpatch, PixelRay ray, bool near, inout Traversal traversal, inout Pending pending) {
   precise SubpatchBounds bounds;
   precise Triangle tri;
   load_uniform(subpatch, bounds, tri);
@@ -34,7 +35,7 @@ void intersect_packet(uint subpatch, PixelRay ray, bool near, inout Traversal tr
   ControlNet net = control_net(framed, bounds.corner.xyz, bounds.edge.xyz,
                                with_overlap(sub_triangle_at(bounds.sub_triangle, WHOLE)));
   near = near && hull_overlaps_ray(net, ray.frame.stretch * bounds.corner.w + tolerance);
-  intersect_quickly(tri, bounds.triangle, bounds, framed, subpatch, ray, tolerance, near, traversal, undecided);
+  intersect_quickly(tri, bounds.triangle, bounds, framed, subpatch, ray, tolerance, near, traversal, pending);
 }
 
 void main() {
@@ -44,21 +45,22 @@ void main() {
   precise PixelRay ray = ray_of(pixel);
   precise Traversal traversal = begin_pixel_traversal(pixel, 0);
   Packet packet = packet_of(ray, traversal.hit.z != TRAVERSAL_ENDED);
-  bool undecided = false;
+  Pending pending = nothing_pending();
   PacketTraversal packet_traversal = begin_packet_traversal(packet);
   bool near;
   uint subpatch;
   do {
     subpatch = next_packet_candidate(packet, ray, traversal.hit.z, packet_traversal, near);
-    if (subpatch != NO_TRIANGLE) intersect_packet(subpatch, ray, near, traversal, undecided);
+    if (subpatch != NO_TRIANGLE) intersect_packet(subpatch, ray, near, traversal, pending);
     end_in_shadow(traversal);
   } while (subpatch != NO_TRIANGLE);
-  undecided = (undecided || packet_traversal.steps <= 0) && traversal.hit.z != TRAVERSAL_ENDED;
+  if (packet_traversal.steps <= 0) pending.count = MOST_PENDING + 1u;
+  bool undecided = pending.count > 0u && traversal.hit.z != TRAVERSAL_ENDED;
   if (pixel.x >= params.width || pixel.y >= params.height) return;
   traversal.counts.bytes = packet_traversal.bytes;
   count_bytes(traversal);
   if (undecided) {
-    enqueue(pixel.y * params.width + pixel.x, traversal);
+    enqueue_pending(pixel.y * params.width + pixel.x, traversal, pending);
     return;
   }
   write_pixel(pixel, ray, traversal);

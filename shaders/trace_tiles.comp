@@ -1,6 +1,6 @@
 #version 450
 // Traces a frame by the lists of the subpatches whose projections overlap each tile of the image. Rays that Newton's
-// method leaves undecided are queued for trace_undecided.comp, so that the other rays of their subgroup do not wait for
+// method leaves undecided are queued for trace_pending.comp, so that the other rays of their subgroup do not wait for
 // them here.
 //
 // Newton's method is a loop that the lanes of a subgroup leave at different times, and operations of the subgroup follow
@@ -24,6 +24,7 @@ layout(std430, binding = BINDING_PROJECTED) readonly restrict buffer ProjectedBl
 #include "trace.glsl"
 #include "write_pixel.glsl"
 #include "queue.glsl"
+#include "pending.glsl"
 #include "intersect_quickly.glsl"
 #include "overlaps_rect.glsl"
 #include "broadcast.glsl"
@@ -104,7 +105,7 @@ ProjectedSubpatch load_uniform(uint subpatch) {
 }
 
 // Intersects all rays of the subgroup with one subpatch. position: this invocation's, in the image.
-void intersect_packet(uint subpatch, PixelRay ray, vec2 position, INOUT(Traversal) traversal, INOUT(bool) undecided) {
+void intersect_packet(uint subpatch, PixelRay ray, vec2 position, INOUT(Traversal) traversal, INOUT(Pending) pending) {
   ProjectedSubpatch projection = load_uniform(subpatch);
   if (COUNTS) traversal.counts.bytes += EIGHT_LANES ? LANE_SHARE_BYTES : PROJECTED_BYTES;
   // For the other surfaces Newton's method needs nothing of the triangle beyond the record.
@@ -116,13 +117,13 @@ void intersect_packet(uint subpatch, PixelRay ray, vec2 position, INOUT(Traversa
   framed.D0 = projection.D0.xyz;
   framed.D1 = projection.D1.xyz;
   framed.D2 = projection.D2.xyz;
-  bool near = overlaps_rect(projection, position, vec2(PIXEL_SLACK));
+  bool near = overlaps_rect(projection, position, vec2(PIXEL_SLACK)) && projection.lines_x.w <= traversal.hit.z;
   SubpatchBounds bounds;
   bounds.edge = vec4(projection.P0.w, projection.P1.w, projection.P2.w, 0.0);
   bounds.sub_triangle = vec4(projection.D0.w, projection.D1.w, projection.D2.w, projection.sizes.x);
   bounds.cone = projection.cone;
   intersect_quickly(triangles[projection.triangle], projection.triangle, bounds, sheared_patch(ray.frame, framed), subpatch, ray,
-                    ray.frame.stretch * projection.sizes.y, near, traversal, undecided);
+                    ray.frame.stretch * projection.sizes.y, near, traversal, pending);
 }
 
 void main() {
@@ -136,9 +137,10 @@ void main() {
   precise PixelRay ray = pixel_ray(pixel);
   ray.tile = tile;
   precise Traversal traversal = begin_traversal(0);
+  Pending pending = nothing_pending();
   // If the list has overflowed, all rays of the tile are left to trace_undecided.comp, and one subpatch is tried in vain.
-  bool undecided = is_full(tile);
-  uint count = undecided ? 1u : tile_counts[tile];
+  bool overflowed = is_full(tile);
+  uint count = overflowed ? 1u : tile_counts[tile];
   // As many subpatches of the list at a time as the subgroup has lanes: each lane tests one of them, its own, against the
   // rectangle of all the subgroup's pixels. The lanes are counted: gl_SubgroupSize may be more than are there.
   uint lanes = subgroupMax(gl_SubgroupInvocationID) + 1u;
@@ -157,7 +159,7 @@ void main() {
     float next_depth = subgroupMin(own_depth);
     do {
       uint subpatch = subgroupMin(own_depth == next_depth ? own_subpatch : NO_TRIANGLE);
-      intersect_packet(subpatch, ray, position, traversal, undecided);
+      intersect_packet(subpatch, ray, position, traversal, pending);
       if (own_subpatch == subpatch) own_depth = 1e30;
       next_depth = subgroupMin(own_depth);
     } while (next_depth < subgroupMax(traversal.hit.z));
@@ -165,9 +167,9 @@ void main() {
   } while (first < count);
   if (pixel.x >= params.width || pixel.y >= params.height) return;
   count_bytes(traversal);
-  if (undecided) {
-    // trace_undecided.comp begins at the first subpatch of the list: the traversal's item is 0.
-    enqueue(pixel.y * params.width + pixel.x, traversal);
+  if (overflowed) pending.count = MOST_PENDING + 1u;
+  if (pending.count > 0u) {
+    enqueue_pending(pixel.y * params.width + pixel.x, traversal, pending);
     return;
   }
   write_pixel(pixel, ray, traversal);

@@ -52,12 +52,13 @@ Accel accel_at_hand(const AccelRequest& request, const BakedScene& scene) {
 std::vector<const char*> tracing_kernels(Accel accel, uint32_t lanes, bool by_address) {
   switch (accel) {
     case Accel::tiles:
-      return {"trace_tiles", "trace_undecided"};
+      return {"trace_tiles", "trace_pending", "trace_undecided"};
     case Accel::bvh: {
       const char* const ray_by_ray = by_address ? "trace_bvh_at" : "trace_bvh";
       // In a packet each lane of a subgroup tests one of the eight children of a node.
       if (lanes < 8) return {ray_by_ray};
-      return {by_address ? "trace_packets_at" : "trace_packets", ray_by_ray};
+      return {by_address ? "trace_packets_at" : "trace_packets",
+              by_address ? "trace_pending_at" : "trace_pending", ray_by_ray};
     }
     case Accel::rayquery:
       return {"trace_query", "trace_bvh_at"};

@@ -40,7 +40,7 @@ bool run_until_finished(uint32_t steps, uint32_t half, Submit&& submit) {
 // The queue's buffers on a Vulkan device, which must outlive it. For one thread at a time.
 class RayQueue {
  public:
-  // For submits of at most `rays` new rays; takes 96 bytes of device memory for each. steps: of a
+  // For submits of at most `rays` new rays; takes 160 bytes of device memory for each. steps: of a
   // ray per submit; tests take fewer than kSteps so that rays pause. Throws DeviceError if there is
   // no memory.
   RayQueue(const gpu::Device& device, uint32_t rays, uint32_t steps = kSteps);

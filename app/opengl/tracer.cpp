@@ -28,16 +28,19 @@ std::size_t storage_limit() {
 }
 
 // Rows of the image that the buffers hold at a time. The fragment path has a PausedRay for each
-// pixel, which is as large as a pixel's AOVs: its bands are those of images with AOVs.
+// pixel, which is larger than a pixel's AOVs.
 uint32_t band_rows(GlPath path, std::size_t limit, uint32_t width, uint32_t height, bool aovs) {
-  static_assert(sizeof(PausedRay) == sizeof(PixelAovs));
+  static_assert(sizeof(PausedRay) >= sizeof(PixelAovs));
   GLint most_pixels = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most_pixels);
   if (path == GlPath::fragment && (static_cast<GLint>(width) > most_pixels)) {
     throw DeviceError(fmt::format("device {} has framebuffers of at most {} pixels a side.",
                                   device_name(), most_pixels));
   }
-  return rows_in_a_band(device_name(), limit, width, height, aovs || path == GlPath::fragment);
+  if (path == GlPath::compute) return rows_in_a_band(device_name(), limit, width, height, aovs);
+  // As many AOVs as there is room for PausedRays.
+  const std::size_t room = limit / sizeof(PausedRay) * sizeof(PixelAovs);
+  return rows_in_a_band(device_name(), room, width, height, true);
 }
 
 Program program_for(const BakedScene& scene, const KernelChoice& choice, GlPath path) {

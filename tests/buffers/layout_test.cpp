@@ -193,7 +193,8 @@ TEST(Layout, PausedRay) {
                               {"path", offsetof(PausedRay, path)},
                               {"evaluations", offsetof(PausedRay, evaluations)},
                               {"candidates", offsetof(PausedRay, candidates)},
-                              {"padding", offsetof(PausedRay, padding)},
+                              {"pending_count", offsetof(PausedRay, pending_count)},
+                              {"pending", offsetof(PausedRay, pending)},
                           }));
 }
 

@@ -2,12 +2,14 @@
 // and their kernels are in the list of shaders/CMakeLists.txt.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <vector>
 
 #include "app/bake/bvh.h"
 #include "app/bake/subpatch_bounds.h"
 #include "app/dispatch/accel.h"
+#include "app/dispatch/ray_queue.h"
 #include "app/dispatch/vulkan_tracer.h"
 #include "app/stress/stress_scenes.h"
 #include "tests/support/gpu.h"
@@ -115,6 +117,22 @@ TEST_F(Acceleration, HandlesManySubpatchesInOneTile) {
   TraceSettings settings = test::framed(mesh, scene, 40, 24, 10);
   settings.solver = SOLVER_ROBUST;
   ASSERT_GT(scene.subpatches.size(), 15U * TILE_CAPACITY);
+  expect_all_equal(scene, settings, "");
+}
+
+// A subpatch that takes more steps than a ray has in one submit.
+TEST_F(Acceleration, EndsLongSearches) {
+  const Mesh mesh = stress::plain_patch(
+      {glm::dvec3(-0.958, -0.287, 0.0017), glm::dvec3(0, 0, 1), glm::dvec3(0, 0, 1)});
+  const BakedScene scene = bake_with_subpatches(mesh, {SURFACE_PHONG, 0.65, SHELL_HEIGHT});
+  const TraceSettings settings = small(mesh, scene);
+  VulkanTracer tracer(test::validated_device(), scene, settings.width, settings.height,
+                      {.aovs = true, .counts = true});
+  Frame frame;
+  tracer.render(make_params(scene, settings), frame);
+  uint most = 0;
+  for (const PixelAovs& pixel : frame.aovs) most = std::max(most, pixel.evaluations);
+  ASSERT_GT(most, RayQueue::kSteps);
   expect_all_equal(scene, settings, "");
 }
 
