@@ -3,8 +3,9 @@
 struct Pending {
   uvec4 latest;  // the indices of the last four subpatches, the last one first
   uvec4 older;   // and of the four before
-  uint count;    // more than MOST_PENDING: the ray has to go through all candidates again
+  uint count;    // TOO_MANY_PENDING and more: the ray has to go through all candidates again
 };
+const uint TOO_MANY_PENDING = MOST_PENDING + 1u;
 
 Pending nothing_pending() {
   Pending pending;
@@ -21,11 +22,11 @@ void add_pending(uint subpatch, bool undecided, inout Pending pending) {
   pending.count += undecided ? 1u : 0u;
 }
 
-// Stores a traversal at the next place of the queue's half that is being filled. ray: as in PausedRay.
+// enqueue() with what is pending. ray: as in PausedRay.
 void enqueue_pending(uint ray, Traversal traversal, Pending pending) {
-  uint place = push.queue.to + atomicAdd(state.queued, 1u);
+  uint place = next_place();
   pause(place, ray, traversal);
-  if (pending.count > MOST_PENDING) return;
+  if (pending.count >= TOO_MANY_PENDING) return;
   paused[place].pending_count = pending.count;
   paused[place].pending[0] = pending.latest.x;
   paused[place].pending[1] = pending.latest.y;

@@ -34,8 +34,11 @@ void pause(uint place, uint ray, Traversal traversal) {
   paused[place].pending_count = 0u;
 }
 
-// Stores a traversal at the next place of the half that is being filled.
-void enqueue(uint ray, Traversal traversal) { pause(push.queue.to + atomicAdd(state.queued, 1u), ray, traversal); }
+// The next place of the half that is being filled.
+uint next_place() { return push.queue.to + atomicAdd(state.queued, 1u); }
+
+// Stores a traversal there.
+void enqueue(uint ray, Traversal traversal) { pause(next_place(), ray, traversal); }
 
 // Adds the bytes that this invocation has read to the total, a 64-bit number in two words.
 void count_bytes(Traversal traversal) {

@@ -54,7 +54,7 @@ void main() {
     if (subpatch != NO_TRIANGLE) intersect_packet(subpatch, ray, near, traversal, pending);
     end_in_shadow(traversal);
   } while (subpatch != NO_TRIANGLE);
-  if (packet_traversal.steps <= 0) pending.count = MOST_PENDING + 1u;
+  if (packet_traversal.steps <= 0) pending.count = TOO_MANY_PENDING;
   bool undecided = pending.count > 0u && traversal.hit.z != TRAVERSAL_ENDED;
   if (pixel.x >= params.width || pixel.y >= params.height) return;
   traversal.counts.bytes = packet_traversal.bytes;

@@ -167,7 +167,7 @@ void main() {
   } while (first < count);
   if (pixel.x >= params.width || pixel.y >= params.height) return;
   count_bytes(traversal);
-  if (overflowed) pending.count = MOST_PENDING + 1u;
+  if (overflowed) pending.count = TOO_MANY_PENDING;
   if (pending.count > 0u) {
     enqueue_pending(pixel.y * params.width + pixel.x, traversal, pending);
     return;

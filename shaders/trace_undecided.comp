@@ -1,5 +1,5 @@
 #version 450
-// Traces the pixels that trace_tiles.comp left undecided, each by the whole list of its tile.
+// Traces the pixels of trace_tiles.comp that trace_pending.comp passes on, each by the whole list of its tile.
 #extension GL_GOOGLE_include_directive : require
 #include "language.h"
 #include "shared.h"
