@@ -19,7 +19,7 @@ vec3 project_ball(vec3 p, real radius) {
 void extend_projection(vec3 seen, INOUT(ProjectedSubpatch) view) {
   vec3 along = vec3(view.lines_x) * seen.x + view.lines_y * seen.y + vec3(seen.z);
   vec3 at = max(vec3(view.lines_at), along);
-  view.lines_at = vec4(at, 0.0);
+  view.lines_at = vec4(at, view.lines_at.w);
   view.box = vec4(min(view.box.x, seen.x - seen.z), min(view.box.y, seen.y - seen.z), max(view.box.z, seen.x + seen.z),
                   max(view.box.w, seen.y + seen.z));
 }
@@ -27,7 +27,7 @@ void extend_projection(vec3 seen, INOUT(ProjectedSubpatch) view) {
 // Nothing is known of where it is seen.
 void make_unbounded(INOUT(ProjectedSubpatch) view) {
   view.box = vec4(real(-1e30), real(-1e30), real(1e30), real(1e30));
-  view.lines_at = vec4(real(1e30));
+  view.lines_at = vec4(vec3(real(1e30)), view.lines_at.w);
 }
 
 // A depth at which something begins, for subpatches to be sorted by. What is not a depth is before all else.
@@ -78,7 +78,7 @@ ProjectedSubpatch project_subpatch(uint index) {
   view.lines_x = vec4(vec3(e0.y, e1.y, e2.y) * scale, sortable(begins - radius));
   view.lines_y = vec3(-e0.x, -e1.x, -e2.x) * scale;
   view.triangle = bounds.triangle;
-  view.lines_at = vec4(vec3(real(-1e30)), 0.0);
+  view.lines_at = vec4(vec3(real(-1e30)), bounds.corner.x);
   view.box = vec4(real(1e30), real(1e30), real(-1e30), real(-1e30));
   extend_projection(s0, view);
   extend_projection(s1, view);
@@ -99,7 +99,7 @@ ProjectedSubpatch project_subpatch(uint index) {
   view.D1 = vec4(at.D1, bounds.sub_triangle.y);
   view.D2 = vec4(at.D2, bounds.sub_triangle.z);
   view.cone = bounds.cone;
-  view.sizes = vec4(bounds.sub_triangle.w, axial, 0.0, 0.0);
+  view.sizes = vec4(bounds.sub_triangle.w, axial, bounds.corner.y, bounds.corner.z);
   return view;
 }
 

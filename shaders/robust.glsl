@@ -29,6 +29,9 @@ const real ROUGH_STEP = real(0.0625);
 // intersect_by_newton(): steps at most, and the part of the subpatch's size that the last may have. It is as large as in
 // newton(), with the same error.
 const int ONCE_STEPS = 6;
+// Where the surface is not cubic, as many steps come before these that take the quadratic of the bounds for sigma: it is
+// much cheaper, and so close that few of the others are needed.
+const int QUADRATIC_STEPS = 2;
 const real ONCE_MOVED = real(1e-4);
 // What the loops for one node count for in Traversal::steps, without the evaluations.
 const int VISIT_STEPS = 8;
@@ -95,6 +98,17 @@ real position_tolerance(RayFrame frame, Triangle tri) { return ROUNDINGS * frame
 Displacement displacement_in(Shape shape, Triangle tri, SubpatchBounds bounds, vec3 w) {
   if (is_cubic(shape)) return bulged(vec3(bounds.edge) * real(2.0), w);
   return displacement_and_derivatives(shape, tri, w);
+}
+
+// The quadratic of the bounds and its derivatives.
+Displacement quadratic_displacement(SubpatchBounds bounds, vec3 w) {
+  vec3 corner = vec3(bounds.corner);
+  vec3 edge = vec3(bounds.edge);
+  Displacement q;
+  q.s = blossom(corner, edge, w, w);
+  q.u = real(2.0) * blossom(corner, edge, w, vec3(-1.0, 1.0, 0.0));
+  q.v = real(2.0) * blossom(corner, edge, w, vec3(-1.0, 0.0, 1.0));
+  return q;
 }
 
 SurfacePoint evaluate_surface(Shape shape, Triangle tri, SubpatchBounds bounds, FramedPatch framed, vec3 w) {
@@ -228,24 +242,30 @@ uint intersect_by_newton(Shape shape, Triangle tri, SubpatchBounds bounds, Frame
   real slope = real(0.0);
   real longest = real(0.0);
   bool found = !steep;
-  int left = ONCE_STEPS;
+  int left = is_cubic(shape) ? ONCE_STEPS : QUADRATIC_STEPS + ONCE_STEPS;
   // The condition is at the end because llvmpipe runs the body once more, masked, if it is at the head. Mesa 22.3 then
   // loses the values of a ray that left the loop before others of its subgroup, hence the choices by `found`.
   do {
-    Displacement here = displacement_in(shape, tri, bounds, next);
+    bool quadratic = !is_cubic(shape) && left > ONCE_STEPS;
+    Displacement here;
+    if (quadratic) {
+      here = quadratic_displacement(bounds, next);
+    } else {
+      here = displacement_in(shape, tri, bounds, next);
+    }
     EXACT vec3 D = framed.D0 + Du * next.y + Dv * next.z;
     EXACT vec2 f = vec2(framed.P0) + vec2(Pu) * next.y + vec2(Pv) * next.z + vec2(D) * here.s;
     EXACT vec2 u = vec2(Pu) + vec2(D) * here.u + vec2(Du) * here.s;
     EXACT vec2 v = vec2(Pv) + vec2(D) * here.v + vec2(Dv) * here.s;
     real area = cross2(u, v);
     vec2 moved = vec2(-cross2(f, v) / area, cross2(f, u) / area);
-    if (!found) ++evaluations;
+    if (!found && !quadratic) ++evaluations;
     from = found ? from : next;
     sigma = found ? sigma : vec3(here.s, here.u, here.v);
     step = found ? step : moved;
     slope = found ? slope : area;
     longest = found ? longest : real(1.5) * (largest(u) + largest(v));
-    found = found || largest(moved) <= ONCE_MOVED * size;
+    found = found || (!quadratic && largest(moved) <= ONCE_MOVED * size);
     next = from + vec3(-step.x - step.y, step.x, step.y);
     --left;
   } while (left > 0 && !found);

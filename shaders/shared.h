@@ -62,7 +62,7 @@ struct ProjectedSubpatch {
   vec4 lines_x;  // xyz; w: the depth in the camera's frame at which the subpatch begins
   vec3 lines_y;
   uint triangle;  // index
-  vec4 lines_at;  // xyz
+  vec4 lines_at;  // xyz; w: SubpatchBounds::corner.x
   // The patch in the axes of the camera's frame.
   vec4 P0;  // xyz: vertex; w: SubpatchBounds::edge.x
   vec4 P1;
@@ -70,8 +70,10 @@ struct ProjectedSubpatch {
   vec4 D0;  // xyz: the shell's direction; w: SubpatchBounds::sub_triangle.x
   vec4 D1;
   vec4 D2;
-  vec4 cone;   // SubpatchBounds::cone
-  vec4 sizes;  // x: SubpatchBounds::sub_triangle.w; y: position_tolerance of the ray along the axis
+  vec4 cone;  // SubpatchBounds::cone
+  // x: SubpatchBounds::sub_triangle.w; y: position_tolerance of the ray along the axis; zw:
+  // SubpatchBounds::corner.yz
+  vec4 sizes;
 };
 
 // The device addresses, low and high half, of buffers that are too large to be bound.

@@ -119,6 +119,7 @@ void intersect_packet(uint subpatch, PixelRay ray, vec2 position, INOUT(Traversa
   framed.D2 = projection.D2.xyz;
   bool near = overlaps_rect(projection, position, vec2(PIXEL_SLACK)) && projection.lines_x.w <= traversal.hit.z;
   SubpatchBounds bounds;
+  bounds.corner = vec4(projection.lines_at.w, projection.sizes.z, projection.sizes.w, 0.0);
   bounds.edge = vec4(projection.P0.w, projection.P1.w, projection.P2.w, 0.0);
   bounds.sub_triangle = vec4(projection.D0.w, projection.D1.w, projection.D2.w, projection.sizes.x);
   bounds.cone = projection.cone;
