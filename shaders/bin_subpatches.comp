@@ -1,6 +1,7 @@
 #version 450
-// Appends every subpatch to the lists of those tiles of the band that its projection may overlap. Invocation x looks at
-// subpatch x; workgroup row y looks at BIN_ROWS rows of tiles.
+// Counts, for every tile of the band, the subpatches whose projections may overlap it; or, with FILLS, enters them into the
+// tiles' lists, for which fill_sky.comp has made room. Invocation x looks at subpatch x; workgroup row y looks at BIN_ROWS
+// rows of tiles.
 #extension GL_GOOGLE_include_directive : require
 #include "language.h"
 #include "shared.h"
@@ -10,7 +11,8 @@ layout(local_size_x = SUBPATCH_GROUP_SIZE) in;
 
 #include "frame_buffers.glsl"
 layout(std430, binding = BINDING_PROJECTED) readonly restrict buffer ProjectedBlock { ProjectedSubpatch projected[]; };
-layout(std430, binding = BINDING_TILE_COUNTS) restrict buffer TileCountsBlock { uint tile_counts[]; };
+layout(constant_id = CONSTANT_FILLS) const bool FILLS = false;
+layout(std430, binding = BINDING_TILE_LISTS) restrict buffer TileListsBlock { TileList tile_lists[]; };
 layout(std430, binding = BINDING_TILE_SUBPATCHES) writeonly restrict buffer TileSubpatchesBlock { uint tile_subpatches[]; };
 
 #include "overlaps_rect.glsl"
@@ -42,8 +44,11 @@ void main() {
     vec2 middle = (vec2(column, row) + vec2(0.5)) * float(TILE_SIZE);
     if (overlaps_rect(projection, middle, half_size)) {
       uint tile = uint((row - first_row) * columns + column);
-      uint position_in_list = atomicAdd(tile_counts[tile], 1u);
-      if (position_in_list < TILE_CAPACITY) tile_subpatches[tile * TILE_CAPACITY + position_in_list] = subpatch;
+      if (!FILLS) {
+        atomicAdd(tile_lists[tile].count, 1u);
+      } else if (tile_lists[tile].end != NOT_LISTED) {
+        tile_subpatches[atomicAdd(tile_lists[tile].end, 1u)] = subpatch;
+      }
     }
     ++column;
     if (column > right) {

@@ -6,7 +6,6 @@
 
 const uint CHILDREN = 8u;
 const uint SUBPATCH_WORDS = 6u;
-const uint TRIANGLE_WORDS = 12u;
 // Bytes that one lane reads in load_uniform, and of an entry of the BVH to see what it links to.
 const uint LANE_SHARE_BYTES = 48u;
 const uint LINK_BYTES = 4u;
@@ -149,8 +148,8 @@ uint next_packet_candidate(Packet packet, PixelRay ray, float z, inout PacketTra
   return subpatch;
 }
 
-// The bounds and the triangle of a subpatch that is the same for all invocations of a subgroup. Each lane loads other words
-// and broadcasts them, for the reason given in trace_tiles.comp.
+// The bounds and the triangle of a subpatch that is the same for all invocations of a subgroup, which has eight at least.
+// Each lane loads other words and broadcasts them, for the reason given in broadcast.glsl.
 void load_uniform(uint subpatch, out SubpatchBounds bounds, out Triangle tri) {
   uint lane = gl_SubgroupInvocationID;
   uvec4 loaded = subpatch_words[subpatch * SUBPATCH_WORDS + min(lane, SUBPATCH_WORDS - 1u)];
@@ -164,19 +163,5 @@ void load_uniform(uint subpatch, out SubpatchBounds bounds, out Triangle tri) {
   bounds.is_flat = rest.y;
   bounds.gradient_lipschitz = uintBitsToFloat(rest.z);
   bounds.skip = 0u;
-  uint base = bounds.triangle * TRIANGLE_WORDS;
-  loaded = triangle_words[base + (lane & 7u)];
-  tri.Position[0] = broadcast_floats(loaded, 0);
-  tri.Position[1] = broadcast_floats(loaded, 1);
-  tri.Position[2] = broadcast_floats(loaded, 2);
-  tri.Normal[0] = broadcast_floats(loaded, 3);
-  tri.Normal[1] = broadcast_floats(loaded, 4);
-  tri.Normal[2] = broadcast_floats(loaded, 5);
-  tri.TriNormal = broadcast_floats(loaded, 6);
-  tri.NormDot = broadcast_floats(loaded, 7);
-  loaded = triangle_words[base + 8u + (lane & 3u)];
-  tri.Domain = broadcast_floats(loaded, 0);
-  tri.VertexData[0] = broadcast_floats(loaded, 1);
-  tri.VertexData[1] = broadcast_floats(loaded, 2);
-  tri.VertexData[2] = broadcast_floats(loaded, 3);
+  tri = load_triangle(bounds.triangle);
 }

@@ -14,9 +14,11 @@ layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Wo
 #else
 layout(std430, binding = BINDING_TRIANGLES) readonly restrict buffer TrianglesBlock { Triangle triangles[]; };
 layout(std430, binding = BINDING_SUBPATCHES) readonly restrict buffer SubpatchesBlock { SubpatchBounds subpatches[]; };
-#ifdef TRISECT_BVH
 // Triangles and bounds once more, as arrays of words, of which floats keep their bits on every device; and the BVH.
+#if defined(TRISECT_BVH) || defined(TRISECT_WORDS)
 layout(std430, binding = BINDING_TRIANGLES) readonly restrict buffer TriangleWordsBlock { uvec4 triangle_words[]; };
+#endif
+#ifdef TRISECT_BVH
 layout(std430, binding = BINDING_SUBPATCHES) readonly restrict buffer SubpatchWordsBlock { uvec4 subpatch_words[]; };
 layout(std430, binding = BINDING_BVH) readonly restrict buffer BvhBlock { BvhEntry bvh[]; };
 #endif

@@ -76,7 +76,22 @@ struct ProjectedSubpatch {
   vec4 sizes;
 };
 
-// The device addresses, low and high half, of buffers that are too large to be bound.
+// The list of the subpatches whose projections overlap a tile, among those of all tiles.
+struct TileList {
+  uint count;  // of the subpatches
+  uint end;    // index of the first entry after the list's; NOT_LISTED: there is no list, for the
+             // tile has more than TILE_CAPACITY subpatches, or there is no room for them
+};
+
+// What the lists of a band of the image add up to, for the host to read.
+struct TileTotals {
+  uint tiles;    // with a subpatch
+  uint entries;  // of all lists of at most TILE_CAPACITY subpatches
+  uint padding0;
+  uint padding1;
+};
+
+// The device addresses, low and high half, of buffers that kernels reach by them.
 struct Addresses {
   uint triangles_low;
   uint triangles_high;
@@ -86,10 +101,10 @@ struct Addresses {
   uint bvh_high;
   uint boxes_low;  // of the device's own acceleration structure over the subpatches' boxes
   uint boxes_high;
+  uint projected_low;  // of the ProjectedSubpatches of a frame
+  uint projected_high;
   float scene_radius;  // no box reaches farther from the scene's origin
-  uint padding0;
-  uint padding1;
-  uint padding2;
+  uint padding;
 };
 
 // One frame's constants. Rays leave the eye; near(x, y) = eye + ray_corner + x ray_dx + y ray_dy is
@@ -221,6 +236,8 @@ struct CastPush {
 };
 
 const uint NO_TRIANGLE = 4294967295u;
+// TileList::end of a tile without a list.
+const uint NOT_LISTED = 4294967295u;
 
 // The coordinates, directions and displacements of a patch that the bake hands to the kernels add
 // up to less: the square of such a number has room in single precision.
@@ -282,8 +299,10 @@ const float ERROR_WRONG = -3.0;      // a hit instead of a miss, or the other wa
 
 // Workgroups are TILE_SIZE x TILE_SIZE pixels.
 #define TILE_SIZE 8
-// Most subpatches of a tile's list. The rays of a tile with more go through all subpatches.
-#define TILE_CAPACITY 128
+// Most subpatches of a tile's list. The rays of a tile with more go through all subpatches. The
+// entries of all lists have 32-bit indices: a band of an image has at most 2^22 tiles, for its
+// colours lie in a buffer of at most 2^32 bytes.
+#define TILE_CAPACITY 1024
 // Subpatches that a workgroup projects or enters into lists, one for each invocation, and the rows
 // of tiles that an invocation goes through.
 #define SUBPATCH_GROUP_SIZE 64
@@ -303,10 +322,10 @@ const float ERROR_WRONG = -3.0;      // a hit instead of a miss, or the other wa
 #define BINDING_QUEUED 8
 #define BINDING_PUSH 9  // OpenGL only
 #define BINDING_PROJECTED 10
-#define BINDING_TILE_COUNTS 11
+#define BINDING_TILE_LISTS 11
 #define BINDING_TILE_SUBPATCHES 12
 #define BINDING_TILE_ORDER 13
-#define BINDING_TILES_SEEN 14
+#define BINDING_TILE_TOTALS 14
 #define BINDING_BVH 15
 #define BINDING_ADDRESSES 16
 #define BINDING_FRAME 17  // a texture
@@ -322,3 +341,4 @@ const float ERROR_WRONG = -3.0;      // a hit instead of a miss, or the other wa
 #define CONSTANT_BALLS 7
 #define CONSTANT_NONSMOOTH 8
 #define CONSTANT_EIGHT_LANES 9
+#define CONSTANT_FILLS 10

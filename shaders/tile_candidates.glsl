@@ -1,16 +1,19 @@
-// Candidates of a ray: the subpatches in the list of its tile whose bounding balls it meets. If more subpatches overlap the
-// tile than its list can hold, all subpatches of the scene are tested instead.
+// Candidates of a ray: the subpatches in the list of its tile whose bounding balls it meets. A tile
+// without a list has all subpatches of the scene for candidates.
 
-layout(std430, binding = BINDING_TILE_COUNTS) readonly restrict buffer TileCountsBlock { uint tile_counts[]; };
+layout(std430, binding = BINDING_TILE_LISTS) readonly restrict buffer TileListsBlock { TileList tile_lists[]; };
 layout(std430, binding = BINDING_TILE_SUBPATCHES) readonly restrict buffer TileSubpatchesBlock {
   uint tile_subpatches[];
 };
 
-// Whether more subpatches overlap the tile than its list can hold.
-bool is_full(uint tile) { return tile_counts[tile] > TILE_CAPACITY; }
+uint candidate_count(uint tile) {
+  TileList list = tile_lists[tile];
+  return list.end == NOT_LISTED ? params.subpatch_count : list.count;
+}
 
-uint candidate_count(uint tile) { return is_full(tile) ? params.subpatch_count : tile_counts[tile]; }
-
-uint candidate_at(uint tile, uint item) { return is_full(tile) ? item : tile_subpatches[tile * TILE_CAPACITY + item]; }
+uint candidate_at(uint tile, uint item) {
+  TileList list = tile_lists[tile];
+  return list.end == NOT_LISTED ? item : tile_subpatches[list.end - list.count + item];
+}
 
 #include "list_traversal.glsl"

@@ -23,6 +23,7 @@ layout(local_size_x = TILE_SIZE * TILE_SIZE) in;
 #include "pending.glsl"
 #include "intersect_quickly.glsl"
 #include "broadcast.glsl"
+#include "broadcast_triangle.glsl"
 #include "packets.glsl"
 
 // Intersects all rays of the subgroup with one subpatch; near: whether this invocation's ray meets its ball.

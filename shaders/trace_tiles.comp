@@ -16,8 +16,14 @@
 
 layout(local_size_x = TILE_SIZE * TILE_SIZE) in;
 
+#define TRISECT_WORDS
+
 #include "frame_buffers.glsl"
+#ifdef TRISECT_ADDRESSES
+#define projected_words WordsAt(uvec2(addresses.projected_low, addresses.projected_high)).items
+#else
 layout(std430, binding = BINDING_PROJECTED) readonly restrict buffer ProjectedBlock { uvec4 projected_words[]; };
+#endif
 
 #include "rays.glsl"
 #include "tile_candidates.glsl"
@@ -28,6 +34,7 @@ layout(std430, binding = BINDING_PROJECTED) readonly restrict buffer ProjectedBl
 #include "intersect_quickly.glsl"
 #include "overlaps_rect.glsl"
 #include "broadcast.glsl"
+#include "broadcast_triangle.glsl"
 
 layout(std430, binding = BINDING_TILE_ORDER) readonly restrict buffer TileOrderBlock { uint tile_order[]; };
 
@@ -123,7 +130,13 @@ void intersect_packet(uint subpatch, PixelRay ray, vec2 position, INOUT(Traversa
   bounds.edge = vec4(projection.P0.w, projection.P1.w, projection.P2.w, 0.0);
   bounds.sub_triangle = vec4(projection.D0.w, projection.D1.w, projection.D2.w, projection.sizes.x);
   bounds.cone = projection.cone;
-  intersect_quickly(triangles[projection.triangle], projection.triangle, bounds, sheared_patch(ray.frame, framed), subpatch, ray,
+  Triangle tri;
+  if (EIGHT_LANES && !is_cubic(scene_shape())) {
+    tri = load_triangle(projection.triangle);
+  } else {
+    tri = triangles[projection.triangle];
+  }
+  intersect_quickly(tri, projection.triangle, bounds, sheared_patch(ray.frame, framed), subpatch, ray,
                     ray.frame.stretch * projection.sizes.y, near, traversal, pending);
 }
 
@@ -139,16 +152,18 @@ void main() {
   ray.tile = tile;
   precise Traversal traversal = begin_traversal(0);
   Pending pending = nothing_pending();
-  // If the list has overflowed, all rays of the tile are left to trace_undecided.comp, and one subpatch is tried in vain.
-  bool overflowed = is_full(tile);
-  uint count = overflowed ? 1u : tile_counts[tile];
+  // Without a list all rays of the tile are left to trace_undecided.comp, and one subpatch is tried in vain.
+  TileList list = tile_lists[tile];
+  bool is_listed = list.end != NOT_LISTED;
+  uint count = is_listed ? list.count : 1u;
+  uint begin = list.end - list.count;
   // As many subpatches of the list at a time as the subgroup has lanes: each lane tests one of them, its own, against the
   // rectangle of all the subgroup's pixels. The lanes are counted: gl_SubgroupSize may be more than are there.
   uint lanes = subgroupMax(gl_SubgroupInvocationID) + 1u;
   uint first = 0u;
   do {
     uint item = first + gl_SubgroupInvocationID;
-    uint own_subpatch = tile_subpatches[tile * TILE_CAPACITY + min(item, count - 1u)];
+    uint own_subpatch = is_listed ? tile_subpatches[begin + min(item, count - 1u)] : 0u;
     ProjectedSubpatch projection = load_header(own_subpatch);
     if (COUNTS) traversal.counts.bytes += 4u + HEADER_BYTES;
     bool overlaps = item < count && overlaps_rect(projection, 0.5 * (least + largest),
@@ -168,7 +183,7 @@ void main() {
   } while (first < count);
   if (pixel.x >= params.width || pixel.y >= params.height) return;
   count_bytes(traversal);
-  if (overflowed) pending.count = TOO_MANY_PENDING;
+  if (!is_listed) pending.count = TOO_MANY_PENDING;
   if (pending.count > 0u) {
     enqueue_pending(pixel.y * params.width + pixel.x, traversal, pending);
     return;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstddef>
 
 #include "vk/result.h"
@@ -107,6 +108,18 @@ SubgroupSupport subgroups_of(const VkPhysicalDeviceSubgroupProperties& subgroups
     support.most = most;
   }
   return support;
+}
+
+// The first number of what a Mesa driver tells of itself, "Mesa 25.0.7 (LLVM 15.0.6)"; 0 if there
+// is none. lavapipe's driverVersion is 1 in all of them.
+int mesa_version(std::string_view info) {
+  constexpr std::string_view name = "Mesa ";
+  int version = 0;
+  if (info.starts_with(name)) {
+    info.remove_prefix(name.size());
+    std::from_chars(info.data(), info.data() + info.size(), version);
+  }
+  return version;
 }
 
 }  // namespace
@@ -244,6 +257,8 @@ Capabilities capabilities_of(VkPhysicalDevice device, uint32_t instance_version)
     // SwiftShader's is empty.
     if (driver.driverInfo[0] != '\0') found.driver += std::string(", ") + driver.driverInfo;
     found.wants_specialized_code = driver.driverID == VK_DRIVER_ID_GOOGLE_SWIFTSHADER;
+    found.loads_fast_by_address =
+        driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE && mesa_version(driver.driverInfo) >= 25;
   }
   found.subgroups = subgroups_of(subgroups, subgroup_control, subgroup_sizes);
   found.subgroups.reconverge = reconvergence.shaderSubgroupUniformControlFlow == VK_TRUE;

@@ -91,6 +91,9 @@ struct Capabilities {
   // below it, a kernel takes half the time if specialized() has seen it. lavapipe gains nothing.
   bool wants_specialized_code = false;
   bool buffer_addresses = false;
+  // llvmpipe of recent Mesa loads from an address with one instruction for all lanes of a subgroup,
+  // and from a binding lane by lane, with a comparison for its bounds.
+  bool loads_fast_by_address = false;
   bool fault_reports = false;  // of a lost device (VK_EXT_device_fault)
   bool ray_queries = false;
   VkDeviceSize scratch_alignment = 1;  // of builds of acceleration structures; if ray_queries

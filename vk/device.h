@@ -58,6 +58,10 @@ class Device {
 
   // Whether kernels can reach buffers by their addresses.
   [[nodiscard]] bool has_addresses() const { return address_of_ != nullptr; }
+  // Whether kernels should load by addresses what they could load from bindings.
+  [[nodiscard]] bool loads_fast_by_address() const {
+    return has_addresses() && capabilities_.loads_fast_by_address;
+  }
   // The buffer must have been made for it. Only if has_addresses().
   [[nodiscard]] VkDeviceAddress address_of(VkBuffer buffer) const;
 

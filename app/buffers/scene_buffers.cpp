@@ -41,11 +41,12 @@ SceneBuffers::Placement SceneBuffers::placement_of(const gpu::Device& device,
   const bool too_large = scene.triangles.size() * sizeof(Triangle) > limit ||
                          scene.subpatches.size() * sizeof(SubpatchBounds) > limit ||
                          (needs.bvh && scene.bvh.size() * sizeof(BvhEntry) > limit);
+  if (needs.by_address == ByAddress::also) return {limit, gpu::Memory::addressed, true};
   const bool by_address =
       needs.by_address == ByAddress::always ||
       (needs.by_address == ByAddress::if_large && device.has_addresses() && too_large);
-  return by_address ? Placement{kNoLimit, gpu::Memory::addressed}
-                    : Placement{limit, gpu::Memory::device};
+  return by_address ? Placement{kNoLimit, gpu::Memory::addressed, false}
+                    : Placement{limit, gpu::Memory::device, true};
 }
 
 SceneBuffers::SceneBuffers(const gpu::Device& device, const BakedScene& scene, std::size_t limit,
@@ -55,6 +56,7 @@ SceneBuffers::SceneBuffers(const gpu::Device& device, const BakedScene& scene, s
 SceneBuffers::SceneBuffers(const gpu::Device& device, const BakedScene& scene,
                            const Placement& placement, bool with_bvh)
     : by_address_(placement.memory == gpu::Memory::addressed),
+      bound_(placement.bound),
       with_bvh_(with_bvh),
       triangles_(device, triangle_bytes(device.report().name, placement.limit, scene),
                  placement.memory, "triangles"),
@@ -73,6 +75,14 @@ SceneBuffers::SceneBuffers(const gpu::Device& device, const BakedScene& scene,
                             .subpatches_high = high(subpatches_.address()),
                             .bvh_low = low(bvh_.address()),
                             .bvh_high = high(bvh_.address())};
+  std::memcpy(addresses_.bytes().data(), &addresses, sizeof(addresses));
+}
+
+void SceneBuffers::set_projected(const gpu::Buffer& projected) {
+  Addresses addresses{};
+  std::memcpy(&addresses, addresses_.bytes().data(), sizeof(addresses));
+  addresses.projected_low = low(projected.address());
+  addresses.projected_high = high(projected.address());
   std::memcpy(addresses_.bytes().data(), &addresses, sizeof(addresses));
 }
 

@@ -22,6 +22,7 @@ class SceneBuffers {
     if_large,  // if one of them has more bytes than a binding may have, and the device has
                // addresses
     always,    // the device must have addresses
+    also,      // by both: the buffers must fit a binding, and the device must have addresses
   };
 
   // What the kernels need of the scene. What they do not need takes no memory.
@@ -51,13 +52,14 @@ class SceneBuffers {
 
   [[nodiscard]] bool by_address() const { return by_address_; }
 
+  // Lets kernels reach this buffer as that of Addresses::projected_low. Only if by_address().
+  void set_projected(const gpu::Buffer& projected);
+
   // What kernels bind as BINDING_TRIANGLES, BINDING_SUBPATCHES, BINDING_BVH and BINDING_ADDRESSES.
-  // Where the kernels go by address, the first three are a placeholder.
-  [[nodiscard]] const gpu::Buffer& triangles() const { return by_address_ ? unused_ : triangles_; }
-  [[nodiscard]] const gpu::Buffer& subpatches() const {
-    return by_address_ ? unused_ : subpatches_;
-  }
-  [[nodiscard]] const gpu::Buffer& bvh() const { return by_address_ ? unused_ : bvh_; }
+  // Where the kernels go by address alone, the first three are a placeholder.
+  [[nodiscard]] const gpu::Buffer& triangles() const { return bound_ ? triangles_ : unused_; }
+  [[nodiscard]] const gpu::Buffer& subpatches() const { return bound_ ? subpatches_ : unused_; }
+  [[nodiscard]] const gpu::Buffer& bvh() const { return bound_ ? bvh_ : unused_; }
   [[nodiscard]] const gpu::Buffer& addresses() const { return addresses_; }
 
  private:
@@ -65,6 +67,7 @@ class SceneBuffers {
   struct Placement {
     std::size_t limit;
     gpu::Memory memory;
+    bool bound;
   };
   static Placement placement_of(const gpu::Device& device, const BakedScene& scene,
                                 std::size_t limit, const Needs& needs);
@@ -72,6 +75,7 @@ class SceneBuffers {
                bool with_bvh);
 
   bool by_address_;
+  bool bound_;
   bool with_bvh_;
   gpu::Buffer triangles_;
   gpu::Buffer subpatches_;

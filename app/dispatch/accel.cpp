@@ -52,6 +52,7 @@ Accel accel_at_hand(const AccelRequest& request, const BakedScene& scene) {
 std::vector<const char*> tracing_kernels(Accel accel, uint32_t lanes, bool by_address) {
   switch (accel) {
     case Accel::tiles:
+      if (by_address) return {"trace_tiles_at", "trace_pending_at", "trace_undecided_at"};
       return {"trace_tiles", "trace_pending", "trace_undecided"};
     case Accel::bvh: {
       const char* const ray_by_ray = by_address ? "trace_bvh_at" : "trace_bvh";

@@ -1,5 +1,6 @@
 #include "app/dispatch/tile_lists.h"
 
+#include <algorithm>
 #include <cstring>
 #include <span>
 
@@ -13,25 +14,39 @@ std::span<const std::byte> bytes_of(const TilePush& push) {
   return std::as_bytes(std::span(&push, 1));
 }
 
+// constants, for the kernel that fills the lists.
+std::vector<gpu::Specialization> filling(std::vector<gpu::Specialization> constants) {
+  constants.push_back({CONSTANT_FILLS, 1U});
+  return constants;
+}
+
+// Entries of lists for which there is room at first, for each tile.
+constexpr std::size_t kFirstEntries = 16;
+
 }  // namespace
 
 TileLists::Tiles::Tiles(const gpu::Device& device, uint32_t width, uint32_t band_rows)
-    : counts(device, std::size_t{tiles_across(width)} * tiles_across(band_rows) * sizeof(uint32_t),
-             gpu::Memory::device, "subpatch counts of tiles"),
-      subpatches(device, counts.size() * TILE_CAPACITY, gpu::Memory::device, "subpatches of tiles"),
-      order(device, counts.size(), gpu::Memory::device, "order of tiles") {}
+    : lists(device, std::size_t{tiles_across(width)} * tiles_across(band_rows) * sizeof(TileList),
+            gpu::Memory::device, "lists of tiles"),
+      subpatches(device, lists.size() / sizeof(TileList) * kFirstEntries * sizeof(uint32_t),
+                 gpu::Memory::device, "subpatches of tiles"),
+      order(device, lists.size() / sizeof(TileList) * sizeof(uint32_t), gpu::Memory::device,
+            "order of tiles") {}
 
 TileLists::TileLists(const gpu::Device& device, const std::vector<gpu::Specialization>& constants,
                      const KernelCode* code, uint32_t subpatches, uint32_t width,
-                     uint32_t band_rows)
+                     uint32_t band_rows, std::size_t buffer_limit)
     : groups_((subpatches + SUBPATCH_GROUP_SIZE - 1) / SUBPATCH_GROUP_SIZE),
       project_kernel_(make_kernel(device, kProjectKernel, constants, code)),
-      bin_kernel_(make_kernel(device, kBinKernel, constants, code)),
+      count_kernel_(make_kernel(device, kBinKernel, constants, code)),
       sky_kernel_(make_kernel(device, kSkyKernel, constants, code)),
-      projected_(device, std::size_t{subpatches} * sizeof(ProjectedSubpatch), gpu::Memory::device,
+      fill_kernel_(make_kernel(device, kBinKernel, filling(constants), code)),
+      buffer_limit_(buffer_limit),
+      projected_(device, std::size_t{subpatches} * sizeof(ProjectedSubpatch),
+                 device.loads_fast_by_address() ? gpu::Memory::addressed : gpu::Memory::device,
                  "projected subpatches"),
       tiles_(device, width, band_rows),
-      seen_(device, sizeof(uint32_t), gpu::Memory::host, "number of tiles with subpatches") {}
+      totals_(device, sizeof(TileTotals), gpu::Memory::host, "totals of the tiles' lists") {}
 
 void TileLists::resize(const gpu::Device& device, uint32_t width, uint32_t band_rows) {
   tiles_ = Tiles(device, width, band_rows);
@@ -44,18 +59,33 @@ double TileLists::project(gpu::Commands& commands, const gpu::DescriptorSet& des
 }
 
 double TileLists::bin(gpu::Commands& commands, const gpu::DescriptorSet& descriptors,
-                      uint32_t width, uint32_t first_row, uint32_t rows, uint32_t& tiles_seen) {
+                      uint32_t width, uint32_t first_row, uint32_t rows) {
   const uint32_t row_groups = (tiles_across(rows) + BIN_ROWS - 1) / BIN_ROWS;
   const TilePush push{{}, 0, first_row, rows};
   commands.begin();
-  commands.clear(tiles_.counts);
-  commands.clear(seen_);
-  commands.dispatch(bin_kernel_, descriptors, bytes_of(push), groups_, row_groups);
+  commands.clear(tiles_.lists);
+  commands.clear(totals_);
+  commands.dispatch(count_kernel_, descriptors, bytes_of(push), groups_, row_groups);
   commands.dispatch(sky_kernel_, descriptors, bytes_of(push), tiles_across(width),
                     tiles_across(rows));
-  const double ms = commands.submit_and_wait();
-  std::memcpy(&tiles_seen, seen_.bytes().data(), sizeof(tiles_seen));
-  return ms;
+  commands.dispatch(fill_kernel_, descriptors, bytes_of(push), groups_, row_groups);
+  return commands.submit_and_wait();
+}
+
+TileTotals TileLists::counted() const {
+  TileTotals totals{};
+  std::memcpy(&totals, totals_.bytes().data(), sizeof(totals));
+  return totals;
+}
+
+bool TileLists::grow(const gpu::Device& device) {
+  // A quarter more than is needed, so that a camera that moves does not ask for more in each frame.
+  const std::size_t needed = counted().entries * sizeof(uint32_t);
+  const std::size_t bytes = std::min(needed + needed / 4, buffer_limit_ / 4 * 4);
+  if (needed <= tiles_.subpatches.size() || bytes <= tiles_.subpatches.size()) return false;
+  tiles_.subpatches =
+      gpu::Buffer(device, bytes / 4 * 4, gpu::Memory::device, "subpatches of tiles");
+  return true;
 }
 
 }  // namespace trisect

@@ -21,25 +21,26 @@ class TileLists {
 
   // constants: those of the kernels that trace. code: as spirv_of() takes it. subpatches: of the
   // scene. width, band_rows: the largest band of the image in pixels, for which lists are made at a
-  // time. Throws DeviceError if there is no memory.
+  // time. buffer_limit: bytes that the lists may take. Throws DeviceError if there is no memory.
   TileLists(const gpu::Device& device, const std::vector<gpu::Specialization>& constants,
-            const KernelCode* code, uint32_t subpatches, uint32_t width, uint32_t band_rows);
+            const KernelCode* code, uint32_t subpatches, uint32_t width, uint32_t band_rows,
+            std::size_t buffer_limit);
 
   // For bands of another size. Throws DeviceError if there is no memory.
   void resize(const gpu::Device& device, uint32_t width, uint32_t band_rows);
 
-  // What kernels bind as BINDING_PROJECTED, BINDING_TILE_COUNTS, BINDING_TILE_SUBPATCHES,
-  // BINDING_TILE_ORDER and BINDING_TILES_SEEN.
+  // What kernels bind as BINDING_PROJECTED, BINDING_TILE_LISTS, BINDING_TILE_SUBPATCHES,
+  // BINDING_TILE_ORDER and BINDING_TILE_TOTALS.
   [[nodiscard]] const gpu::Buffer& projected() const { return projected_; }
-  [[nodiscard]] const gpu::Buffer& counts() const { return tiles_.counts; }
+  [[nodiscard]] const gpu::Buffer& lists() const { return tiles_.lists; }
   [[nodiscard]] const gpu::Buffer& subpatches() const { return tiles_.subpatches; }
   [[nodiscard]] const gpu::Buffer& order() const { return tiles_.order; }
-  [[nodiscard]] const gpu::Buffer& seen() const { return seen_; }
+  [[nodiscard]] const gpu::Buffer& totals() const { return totals_; }
 
   // Bytes of device memory of all of them.
   [[nodiscard]] std::size_t bytes() const {
-    return projected_.size() + tiles_.counts.size() + tiles_.subpatches.size() +
-           tiles_.order.size() + seen_.size();
+    return projected_.size() + tiles_.lists.size() + tiles_.subpatches.size() +
+           tiles_.order.size() + totals_.size();
   }
 
   // Projects all subpatches for the camera in the bound TraceParams. Returns milliseconds on the
@@ -47,29 +48,41 @@ class TileLists {
   double project(gpu::Commands& commands, const gpu::DescriptorSet& descriptors);
 
   // Makes the lists of the band of `rows` rows from first_row on, and fills in the sky where a list
-  // is empty. width: of the image in pixels, at most that of the constructor or of resize(). Sets
-  // tiles_seen to the number of tiles whose lists are not empty. Returns milliseconds on the
-  // device.
+  // is empty. width: of the image in pixels, at most that of the constructor or of resize().
+  // Returns milliseconds on the device.
   double bin(gpu::Commands& commands, const gpu::DescriptorSet& descriptors, uint32_t width,
-             uint32_t first_row, uint32_t rows, uint32_t& tiles_seen);
+             uint32_t first_row, uint32_t rows);
+
+  // The number of tiles of that band whose lists are not empty.
+  [[nodiscard]] uint32_t tiles_seen() const { return counted().tiles; }
+
+  // If lists of that band were left out for lack of room: makes room for them, with another buffer
+  // for subpatches(), and returns true. Throws DeviceError if there is no memory; nothing has
+  // changed then.
+  bool grow(const gpu::Device& device);
 
  private:
+  // What the last band's lists add up to.
+  [[nodiscard]] TileTotals counted() const;
+
   // The buffers whose sizes depend on the image's.
   struct Tiles {
     Tiles(const gpu::Device& device, uint32_t width, uint32_t band_rows);
 
-    gpu::Buffer counts;
+    gpu::Buffer lists;
     gpu::Buffer subpatches;
     gpu::Buffer order;
   };
 
   uint32_t groups_;  // workgroups, of SUBPATCH_GROUP_SIZE subpatches each
   gpu::Kernel project_kernel_;
-  gpu::Kernel bin_kernel_;
+  gpu::Kernel count_kernel_;
   gpu::Kernel sky_kernel_;
+  gpu::Kernel fill_kernel_;
+  std::size_t buffer_limit_;
   gpu::Buffer projected_;
   Tiles tiles_;
-  gpu::Buffer seen_;
+  gpu::Buffer totals_;
 };
 
 }  // namespace trisect

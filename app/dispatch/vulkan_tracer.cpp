@@ -35,14 +35,15 @@ std::vector<gpu::Specialization> constants_of(const gpu::Device& device, const B
 
 std::optional<TileLists> lists_for(const gpu::Device& device, const BakedScene& scene,
                                    const KernelChoice& choice, const KernelCode* code,
-                                   uint32_t width, uint32_t band_rows) {
+                                   uint32_t width, uint32_t band_rows, std::size_t buffer_limit) {
   if (choice.accel != Accel::tiles) return std::nullopt;
   if (device.subgroup_size() == 0) {
     throw DeviceError(device.report().name +
                       " lacks the subgroup operations of --accel tiles; use --accel bvh.");
   }
   return std::optional<TileLists>(std::in_place, device, constants_of(device, scene, choice), code,
-                                  static_cast<uint32_t>(scene.subpatches.size()), width, band_rows);
+                                  static_cast<uint32_t>(scene.subpatches.size()), width, band_rows,
+                                  buffer_limit);
 }
 
 // Throws DeviceError if the device cannot do what the acceleration needs.
@@ -58,6 +59,8 @@ SceneBuffers::Needs needs_of(const gpu::Device& device, const KernelChoice& choi
       return {ByAddress::always, bvh};
     case Accel::bvh:
       return {ByAddress::if_large, bvh};
+    case Accel::tiles:
+      return {device.loads_fast_by_address() ? ByAddress::also : ByAddress::never, bvh};
     default:
       return {ByAddress::never, bvh};
   }
@@ -105,7 +108,7 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
       writes_aovs_(choice.writes_aovs()),
       buffer_limit_(std::min<std::size_t>(buffer_limit, device.limits().maxStorageBufferRange)),
       band_rows_(rows_in_a_band(device.report().name, buffer_limit_, width, height, writes_aovs_)),
-      tiles_(lists_for(device, scene, choice, code, width, band_rows_)),
+      tiles_(lists_for(device, scene, choice, code, width, band_rows_, buffer_limit_)),
       scene_(device, scene, buffer_limit_, needs_of(device, choice)),
       kernels_(kernels_for(device, choice.accel, scene_.by_address(),
                            constants_of(device, scene, choice), code)),
@@ -117,6 +120,7 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
       unused_(device, sizeof(vec4), gpu::Memory::device, "unused"),
       descriptors_(bind()) {
   const Stopwatch watch;
+  if (tiles_ && scene_.by_address()) scene_.set_projected(tiles_->projected());
   scene_.upload(staging_, commands_, scene);
   if (choice.accel == Accel::rayquery) {
     scene_.build_boxes(device, staging_, commands_, scene);
@@ -129,9 +133,9 @@ gpu::DescriptorSet VulkanTracer::bind() const {
           kernels_[0],
           {&params_, &scene_.triangles(), &image_.colors, &image_.aovs, &scene_.subpatches(),
            &image_.queue.paused(), &image_.queue.queued(), tiles_ ? &tiles_->projected() : &unused_,
-           tiles_ ? &tiles_->counts() : &unused_, tiles_ ? &tiles_->subpatches() : &unused_,
-           tiles_ ? &tiles_->order() : &unused_, tiles_ ? &tiles_->seen() : &unused_, &scene_.bvh(),
-           &scene_.addresses()}};
+           tiles_ ? &tiles_->lists() : &unused_, tiles_ ? &tiles_->subpatches() : &unused_,
+           tiles_ ? &tiles_->order() : &unused_, tiles_ ? &tiles_->totals() : &unused_,
+           &scene_.bvh(), &scene_.addresses()}};
 }
 
 void VulkanTracer::resize(uint32_t width, uint32_t height) {
@@ -205,8 +209,12 @@ std::optional<double> VulkanTracer::render_band(const TraceParams& params, uint3
   double gpu_ms = 0.0;
   GroupRange groups = all;
   if (tiles_) {
-    groups = {0, 0};
-    gpu_ms += tiles_->bin(commands_, descriptors_, params.width, first_row, rows, groups.end);
+    gpu_ms += tiles_->bin(commands_, descriptors_, params.width, first_row, rows);
+    if (tiles_->grow(device_)) {
+      descriptors_ = bind();
+      gpu_ms += tiles_->bin(commands_, descriptors_, params.width, first_row, rows);
+    }
+    groups = {0, tiles_->tiles_seen()};
   }
   const std::optional<double> ms = run(kernels_, groups, first_row, rows, keep_going);
   if (!ms) return std::nullopt;

@@ -135,10 +135,10 @@ TEST(Layout, Addresses) {
                                    {"bvh_high", offsetof(Addresses, bvh_high)},
                                    {"boxes_low", offsetof(Addresses, boxes_low)},
                                    {"boxes_high", offsetof(Addresses, boxes_high)},
+                                   {"projected_low", offsetof(Addresses, projected_low)},
+                                   {"projected_high", offsetof(Addresses, projected_high)},
                                    {"scene_radius", offsetof(Addresses, scene_radius)},
-                                   {"padding0", offsetof(Addresses, padding0)},
-                                   {"padding1", offsetof(Addresses, padding1)},
-                                   {"padding2", offsetof(Addresses, padding2)}}));
+                                   {"padding", offsetof(Addresses, padding)}}));
 }
 
 TEST(Layout, TraceParams) {
@@ -170,6 +170,22 @@ TEST(Layout, BytesAreThoseOfTheStructures) {
   EXPECT_EQ(sizeof(BvhEntry), BVH_ENTRY_BYTES);
   EXPECT_EQ(sizeof(SubpatchBounds::ball), BALL_BYTES);
   EXPECT_EQ(sizeof(Triangle::Domain), BALL_BYTES);
+}
+
+TEST(Layout, TileList) {
+  const Held held = bound_to(BINDING_TILE_LISTS, spirv_of("trace_tiles"));
+  EXPECT_EQ(held.stride, sizeof(TileList));
+  EXPECT_EQ(held.offsets,
+            (Offsets{{"count", offsetof(TileList, count)}, {"end", offsetof(TileList, end)}}));
+}
+
+TEST(Layout, TileTotals) {
+  const Held held = bound_to(BINDING_TILE_TOTALS, spirv_of("fill_sky"));
+  EXPECT_EQ(held.stride, sizeof(TileTotals));
+  EXPECT_EQ(held.offsets, (Offsets{{"tiles", offsetof(TileTotals, tiles)},
+                                   {"entries", offsetof(TileTotals, entries)},
+                                   {"padding0", offsetof(TileTotals, padding0)},
+                                   {"padding1", offsetof(TileTotals, padding1)}}));
 }
 
 TEST(Layout, QueueState) {

@@ -111,13 +111,37 @@ TEST_F(Acceleration, SeesWhatIsAroundAndBehindTheEye) {
 }
 
 TEST_F(Acceleration, HandlesManySubpatchesInOneTile) {
-  const Mesh mesh = stress::sphere(4);
+  const Mesh mesh = stress::sphere(5);
   const BakedScene scene = bake_with_subpatches(mesh, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
   // The whole model in a few tiles.
   TraceSettings settings = test::framed(mesh, scene, 40, 24, 10);
   settings.solver = SOLVER_ROBUST;
   ASSERT_GT(scene.subpatches.size(), 15U * TILE_CAPACITY);
   expect_all_equal(scene, settings, "");
+}
+
+// More entries in the lists of tiles than a buffer may hold: some tiles have no list.
+TEST_F(Acceleration, HandlesListsThatDoNotFit) {
+  Mesh mesh;
+  constexpr uint32_t layers = 1000;
+  for (uint32_t k = 0; k < layers; ++k) {
+    const double z = 0.0001 * k;
+    for (const glm::dvec2& at : {glm::dvec2(-3, -2), glm::dvec2(3, -2), glm::dvec2(0, 3)}) {
+      mesh.positions.emplace_back(at, z + 0.0001 * at.x);
+      mesh.normals.emplace_back(0, 0, 1);
+    }
+    mesh.triangles.push_back({{3 * k, 3 * k + 1, 3 * k + 2}, {3 * k, 3 * k + 1, 3 * k + 2}});
+  }
+  const BakedScene scene = bake_with_subpatches(mesh, {SURFACE_FLAT, 0.0, SHELL_NORMAL});
+  TraceSettings settings = test::framed(mesh, scene, 80, 72, 10);
+  settings.solver = SOLVER_ROBUST;
+  // The triangles are all that is seen.
+  settings.camera.fov = 10.0;
+  const std::size_t limit = layers * sizeof(Triangle);
+  // A band is of 6 rows of 10 tiles.
+  ASSERT_EQ(limit / (80 * sizeof(PixelAovs)) / TILE_SIZE, 6U);
+  ASSERT_LT(limit, 6 * 10 * layers * sizeof(uint32_t));
+  expect_all_equal(scene, settings, "", limit);
 }
 
 // A subpatch that takes more steps than a ray has in one submit.
