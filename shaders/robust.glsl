@@ -26,13 +26,15 @@ const real WEIGHT_ROUNDINGS = real(2.4e-7);
 // Beside the curves on which lines begin to miss a vertex's sphere the roundings of sigma keep Newton's steps from getting
 // small. In a `rough` search the last of MOST_STEPS is accepted if it is at most this part of the node's size.
 const real ROUGH_STEP = real(0.0625);
-// intersect_by_newton(): steps at most, and the part of the subpatch's size that the last may have. It is as large as in
-// newton(), with the same error.
+// intersect_by_newton(): steps at most, and the part of the subpatch's size that the last may have. Half the square of that,
+// times what the tangents differ by over the subpatch relative to themselves, is the error it leaves: some 1e-8 of the
+// subpatch's size, less than a position's roundings. The subpatch is smooth; newton() has nonsmooth ones, too, and smaller
+// steps.
 const int ONCE_STEPS = 6;
+const real ONCE_MOVED = real(5e-4);
 // Where the surface is not cubic, as many steps come before these that take the quadratic of the bounds for sigma: it is
 // much cheaper, and so close that few of the others are needed.
 const int QUADRATIC_STEPS = 2;
-const real ONCE_MOVED = real(1e-4);
 // What the loops for one node count for in Traversal::steps, without the evaluations.
 const int VISIT_STEPS = 8;
 // The evaluations of one subpatch for one ray, at most, whatever numbers they are fed, for no loop ends by a comparison of
