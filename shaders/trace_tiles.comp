@@ -140,6 +140,10 @@ void intersect_packet(uint subpatch, PixelRay ray, vec2 position, INOUT(Traversa
                     ray.frame.stretch * projection.sizes.y, near, traversal, pending);
 }
 
+float least_of(vec4 a) { return min(min(a.x, a.y), min(a.z, a.w)); }
+
+uint least_of(uvec4 a) { return min(min(a.x, a.y), min(a.z, a.w)); }
+
 void main() {
   uint tile = tile_order[push.first_group + gl_WorkGroupID.x];
   uint columns = tiles_across(params.width);
@@ -157,29 +161,36 @@ void main() {
   bool is_listed = list.end != NOT_LISTED;
   uint count = is_listed ? list.count : 1u;
   uint begin = list.end - list.count;
-  // As many subpatches of the list at a time as the subgroup has lanes: each lane tests one of them, its own, against the
-  // rectangle of all the subgroup's pixels. The lanes are counted: gl_SubgroupSize may be more than are there.
+  // Some subpatches of the list at a time: each lane tests up to four, its own, against the rectangle of all the subgroup's
+  // pixels. The lanes are counted: gl_SubgroupSize may be more than are there.
   uint lanes = subgroupMax(gl_SubgroupInvocationID) + 1u;
   uint first = 0u;
   do {
-    uint item = first + gl_SubgroupInvocationID;
-    uint own_subpatch = is_listed ? tile_subpatches[begin + min(item, count - 1u)] : 0u;
-    ProjectedSubpatch projection = load_header(own_subpatch);
-    if (COUNTS) traversal.counts.bytes += 4u + HEADER_BYTES;
-    bool overlaps = item < count && overlaps_rect(projection, 0.5 * (least + largest),
-                                                  0.5 * (largest - least) + vec2(PIXEL_SLACK));
-    float own_depth = overlaps ? projection.lines_x.w : 1e30;
+    uvec4 own_subpatches = uvec4(NO_TRIANGLE);
+    vec4 own_depths = vec4(1e30);
+    uint tested = 0u;
+    do {
+      uint item = first + gl_SubgroupInvocationID;
+      uint own_subpatch = is_listed ? tile_subpatches[begin + min(item, count - 1u)] : 0u;
+      ProjectedSubpatch projection = load_header(own_subpatch);
+      if (COUNTS) traversal.counts.bytes += 4u + HEADER_BYTES;
+      bool overlaps = item < count && overlaps_rect(projection, 0.5 * (least + largest),
+                                                    0.5 * (largest - least) + vec2(PIXEL_SLACK));
+      own_subpatches = uvec4(own_subpatch, own_subpatches.xyz);
+      own_depths = vec4(overlaps ? projection.lines_x.w : 1e30, own_depths.xyz);
+      first += lanes;
+      ++tested;
+    } while (first < count && tested < 4u);
     // Front to back by the least depth of each subpatch, until that is beyond the hits of all rays. If no subpatch overlaps,
     // the loop still intersects one in vain: with the condition at its head llvmpipe would run its body once more than
     // needed every time.
-    float next_depth = subgroupMin(own_depth);
+    float next_depth = subgroupMin(least_of(own_depths));
     do {
-      uint subpatch = subgroupMin(own_depth == next_depth ? own_subpatch : NO_TRIANGLE);
+      uint subpatch = subgroupMin(least_of(mix(uvec4(NO_TRIANGLE), own_subpatches, equal(own_depths, vec4(next_depth)))));
       intersect_packet(subpatch, ray, position, traversal, pending);
-      if (own_subpatch == subpatch) own_depth = 1e30;
-      next_depth = subgroupMin(own_depth);
+      own_depths = mix(own_depths, vec4(1e30), equal(own_subpatches, uvec4(subpatch)));
+      next_depth = subgroupMin(least_of(own_depths));
     } while (next_depth < subgroupMax(traversal.hit.z));
-    first += lanes;
   } while (first < count);
   if (pixel.x >= params.width || pixel.y >= params.height) return;
   count_bytes(traversal);
