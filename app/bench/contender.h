@@ -13,6 +13,12 @@
 
 namespace trisect::bench {
 
+// Milliseconds of a frame.
+struct Timing {
+  double ms = 0.0;      // on a Vulkan device by its clock, else by the host's
+  double cpu_ms = 0.0;  // of all of the process's threads together: a CPU device's work, too
+};
+
 class Contender {
  public:
   Contender() = default;
@@ -22,8 +28,8 @@ class Contender {
   Contender(Contender&&) = delete;
   Contender& operator=(Contender&&) = delete;
 
-  // Colours only. Returns milliseconds: on a Vulkan device by its clock, else by the host's.
-  virtual double render(Frame& frame) = 0;
+  // Colours only. The copy of a Vulkan device's frame to the host is not timed.
+  virtual Timing render(Frame& frame) = 0;
 
   // The same frame with AOVs and, if the contender counts it, its work. Not for timing.
   virtual void inspect(Frame& frame) = 0;

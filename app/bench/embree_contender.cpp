@@ -61,10 +61,11 @@ class OnEmbree : public Contender {
     }
   }
 
-  double render(Frame& frame) override {
+  Timing render(Frame& frame) override {
     const Stopwatch watch;
+    const CpuStopwatch cpu;
     trace(frame, false);
-    return watch.milliseconds();
+    return {watch.milliseconds(), cpu.milliseconds()};
   }
 
   void inspect(Frame& frame) override { trace(frame, true); }

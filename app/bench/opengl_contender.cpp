@@ -11,7 +11,11 @@ class OnOpengl : public Contender {
   OnOpengl(const BakedScene& scene, const TraceParams& params, uint32_t level)
       : scene_(scene), params_(params), level_(level), colors_(scene, params, level, false) {}
 
-  double render(Frame& frame) override { return colors_.render(frame); }
+  Timing render(Frame& frame) override {
+    const CpuStopwatch cpu;
+    const double ms = colors_.render(frame);
+    return {ms, cpu.milliseconds()};
+  }
 
   void inspect(Frame& frame) override {
     opengl::Rasterizer(scene_, params_, level_, true).render(frame);

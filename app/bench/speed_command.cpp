@@ -43,6 +43,7 @@ struct Runner {
   std::optional<double> build;  // milliseconds for the structure that its rays traverse
   std::size_t wrong = 0;
   std::vector<double> times;
+  std::vector<double> cpu_times;
 };
 
 template <typename Make>
@@ -101,7 +102,9 @@ class Race {
     // In turns, so that other load on the machine affects all contenders alike.
     for (uint32_t run = 0; run < options_.runs; ++run) {
       for (Runner& row : rows_) {
-        row.times.push_back(row.contender->render(frame));
+        const bench::Timing time = row.contender->render(frame);
+        row.times.push_back(time.ms);
+        row.cpu_times.push_back(time.cpu_ms);
         stop_if_interrupted();
       }
     }
@@ -121,7 +124,7 @@ class Race {
 
   void add(const std::string& name, std::unique_ptr<Contender> contender, const SampleCheck* check,
            std::optional<double> build = std::nullopt) {
-    rows_.push_back({name, std::move(contender), check, build, 0, {}});
+    rows_.push_back({name, std::move(contender), check, build, 0, {}, {}});
   }
 
   void add_robust(const gpu::Device& device, const std::string& name, Accel accel, double build) {
@@ -170,6 +173,7 @@ std::vector<bench::SpeedRow> rows_of(const std::string& model, uint surface, con
     row.patches = race.patches();
     row.contender = runner.name;
     row.ms = spread_of(runner.times);
+    row.cpu_ms = spread_of(runner.cpu_times);
     row.thesis_ms = thesis_ms;
     row.floor_ms = floor_ms;
     if (runner.check != nullptr) {

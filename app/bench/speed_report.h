@@ -18,6 +18,7 @@ struct SpeedRow {
   std::size_t patches = 0;
   std::string contender;
   Spread ms;
+  Spread cpu_ms;
   double thesis_ms = 0.0;  // median of the thesis's tracer
   double floor_ms = 0.0;   // median of writing an image and nothing else
   // Neither of these if the contender's image shows no scene.

@@ -3,6 +3,7 @@
 #include <span>
 #include <utility>
 
+#include "app/base/stopwatch.h"
 #include "app/bench/contender.h"
 #include "app/buffers/kernels.h"
 #include "app/cli/interrupt.h"
@@ -27,12 +28,14 @@ class ImageOnly : public Contender {
     staging.upload(commands_, std::as_bytes(std::span(&params, 1)), params_buffer_);
   }
 
-  double render(Frame& frame) override {
+  Timing render(Frame& frame) override {
     frame.resize(params_.width, params_.height, false);
+    const CpuStopwatch cpu;
     commands_.begin();
     commands_.dispatch(kernel_, bound_, {}, tiles_across(params_.width),
                        tiles_across(params_.height));
-    return commands_.submit_and_wait();
+    const double ms = commands_.submit_and_wait();
+    return {ms, cpu.milliseconds()};
   }
 
   void inspect(Frame& frame) override {
@@ -85,9 +88,17 @@ class OnVulkan : public Contender {
   OnVulkan(std::shared_ptr<Kernels> kernels, const TraceParams& params)
       : kernels_(std::move(kernels)), params_(params) {}
 
-  double render(Frame& frame) override {
-    return finished(kernels_->tracer(false, params_).render(params_, frame, not_interrupted))
-        .gpu_ms;
+  Timing render(Frame& frame) override {
+    VulkanTracer& tracer = kernels_->tracer(false, params_);
+    const CpuStopwatch cpu;
+    if (!tracer.holds_at_once(params_.width, params_.height)) {
+      const double ms = finished(tracer.render(params_, frame, not_interrupted)).gpu_ms;
+      return {ms, cpu.milliseconds()};
+    }
+    const double ms = finished(tracer.trace(params_, not_interrupted));
+    const double cpu_ms = cpu.milliseconds();
+    tracer.fetch(params_, frame);
+    return {ms, cpu_ms};
   }
 
   void inspect(Frame& frame) override {
