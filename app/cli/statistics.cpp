@@ -33,6 +33,7 @@ nlohmann::ordered_json json_of(const Spread& spread) {
 WorkCounts work_of(const Frame& frame) {
   WorkCounts counts;
   counts.bytes_read = frame.bytes_read;
+  counts.queued_rays = frame.queued_rays;
   for (const PixelAovs& pixel : frame.aovs) {
     counts.evaluations += pixel.evaluations;
     counts.candidates += pixel.candidates;
@@ -63,6 +64,7 @@ std::string to_json(const RenderOptions& options, const RenderStatistics& statis
     json["evals_total"] = statistics.counts->evaluations;
     json["candidates_total"] = statistics.counts->candidates;
     if (statistics.counts->bytes_read > 0) json["bytes_read"] = statistics.counts->bytes_read;
+    if (options.backend == Backend::vulkan) json["queued_rays"] = statistics.counts->queued_rays;
   }
   json["shadows"] = options.shadows;
   json["spp"] = options.spp;

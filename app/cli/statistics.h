@@ -34,6 +34,8 @@ struct WorkCounts {
   // Bytes of the scene that the traversal loads. A load that several rays share, or that a cache
   // serves, counts once for each ray. 0 if it is not counted.
   uint64_t bytes_read = 0;
+  // Rays that a Vulkan kernel left to a later one.
+  uint64_t queued_rays = 0;
 };
 
 // Of a frame with AOVs; 0 if nothing was counted.

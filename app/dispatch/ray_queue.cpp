@@ -33,6 +33,7 @@ std::optional<double> RayQueue::run_all(gpu::Commands& commands,
         gpu_ms += commands.submit_and_wait();
         std::memcpy(&state, queued_.bytes().data(), sizeof(state));
         bytes_read_ += bytes_in(state);
+        queued_rays_ += state.queued;
         return state.queued;
       });
   return finished ? std::optional(gpu_ms) : std::nullopt;

@@ -66,8 +66,10 @@ class RayQueue {
 
   // Bytes of the scene that rays have read since begin_count(), if the kernels count them
   // (KernelChoice::counts).
-  void begin_count() { bytes_read_ = 0; }
+  void begin_count() { bytes_read_ = queued_rays_ = 0; }
   [[nodiscard]] uint64_t bytes_read() const { return bytes_read_; }
+  // Rays that have paused since begin_count(), each as often as it did.
+  [[nodiscard]] uint64_t queued_rays() const { return queued_rays_; }
 
   // llvmpipe silently ends all loops of a subgroup after 65535 iterations. At worst no two of its
   // rays, of which there are at most 16, take a step in the same iteration: 16 x 4000 is below
@@ -86,6 +88,7 @@ class RayQueue {
   gpu::Buffer paused_;  // PausedRays, two halves of rays_: one is read while the other is filled
   gpu::Buffer queued_;  // a QueueState, for the half that is filled
   uint64_t bytes_read_ = 0;
+  uint64_t queued_rays_ = 0;
 };
 
 }  // namespace trisect

@@ -174,6 +174,7 @@ std::optional<FrameTime> VulkanTracer::render(const TraceParams& params, Frame& 
     download_band(row, rows, frame);
   }
   frame.bytes_read = image_.queue.bytes_read();
+  frame.queued_rays = image_.queue.queued_rays();
   time.wall_ms = watch.milliseconds();
   return time;
 }
@@ -191,6 +192,7 @@ void VulkanTracer::download_band(uint32_t first_row, uint32_t rows, Frame& frame
 void VulkanTracer::fetch(const TraceParams& params, Frame& frame) {
   frame.resize(params.width, params.height, aovs_);
   frame.bytes_read = image_.queue.bytes_read();
+  frame.queued_rays = image_.queue.queued_rays();
   download_band(0, params.height, frame);
 }
 

@@ -18,11 +18,14 @@ struct Frame {
   std::vector<PixelAovs> aovs;  // outputs beside colour, one for each pixel; empty if not asked for
   // Bytes of the scene that rays loaded on their way, added up over all rays; 0 if not counted.
   uint64_t bytes_read = 0;
+  // Rays that a kernel left to a later one, added up over all kernels; 0 if they have no queue.
+  uint64_t queued_rays = 0;
 
   void resize(uint32_t new_width, uint32_t new_height, bool with_aovs) {
     width = new_width;
     height = new_height;
     bytes_read = 0;
+    queued_rays = 0;
     colors.resize(std::size_t{width} * height);
     aovs.resize(with_aovs ? colors.size() : 0);
   }

@@ -26,6 +26,7 @@ Frame averaged(Frame samples, uint32_t across) {
   Frame frame;
   frame.resize(samples.width / across, samples.height / across, !samples.aovs.empty());
   frame.bytes_read = samples.bytes_read;
+  frame.queued_rays = samples.queued_rays;
   const float weight = 1.0F / (static_cast<float>(across) * static_cast<float>(across));
   for (uint32_t y = 0; y < frame.height; ++y) {
     for (uint32_t x = 0; x < frame.width; ++x) {
