@@ -161,14 +161,13 @@ void main() {
   bool is_listed = list.end != NOT_LISTED;
   uint count = is_listed ? list.count : 1u;
   uint begin = list.end - list.count;
-  // Some subpatches of the list at a time: each lane tests up to four, its own, against the rectangle of all the subgroup's
-  // pixels. The lanes are counted: gl_SubgroupSize may be more than are there.
+  // Some subpatches of the list at a time: each lane tests its own against the rectangle of all the subgroup's pixels, and
+  // keeps up to four that overlap it. The lanes are counted: gl_SubgroupSize may be more than are there.
   uint lanes = subgroupMax(gl_SubgroupInvocationID) + 1u;
   uint first = 0u;
   do {
     uvec4 own_subpatches = uvec4(NO_TRIANGLE);
     vec4 own_depths = vec4(1e30);
-    uint tested = 0u;
     do {
       uint item = first + gl_SubgroupInvocationID;
       uint own_subpatch = is_listed ? tile_subpatches[begin + min(item, count - 1u)] : 0u;
@@ -176,11 +175,12 @@ void main() {
       if (COUNTS) traversal.counts.bytes += 4u + HEADER_BYTES;
       bool overlaps = item < count && overlaps_rect(projection, 0.5 * (least + largest),
                                                     0.5 * (largest - least) + vec2(PIXEL_SLACK));
-      own_subpatches = uvec4(own_subpatch, own_subpatches.xyz);
-      own_depths = vec4(overlaps ? projection.lines_x.w : 1e30, own_depths.xyz);
+      // The first place is taken anew if what is there does not overlap.
+      bool keeps = own_depths.x < 1e30;
+      own_subpatches = uvec4(own_subpatch, keeps ? own_subpatches.xyz : own_subpatches.yzw);
+      own_depths = vec4(overlaps ? projection.lines_x.w : 1e30, keeps ? own_depths.xyz : own_depths.yzw);
       first += lanes;
-      ++tested;
-    } while (first < count && tested < 4u);
+    } while (first < count && subgroupMin(own_depths.w) == 1e30);
     // Front to back by the least depth of each subpatch, until that is beyond the hits of all rays. If no subpatch overlaps,
     // the loop still intersects one in vain: with the condition at its head llvmpipe would run its body once more than
     // needed every time.
