@@ -7,21 +7,21 @@
 namespace trisect {
 namespace {
 
-// Tiles of an image of 800x600.
-constexpr std::size_t kTiles = std::size_t{100} * 75;
+// The most subpatches for which tiles are taken, of an image of 800x600.
+constexpr std::size_t kMost = std::size_t{24} * 100 * 75;
 
 Accel chosen(const AccelRequest& request, std::size_t subpatches) {
   return chosen_accel(request, Backend::vulkan, subpatches);
 }
 
 TEST(ChosenAccel, IsTilesOrTheTreeByTheNumberOfSubpatches) {
-  EXPECT_EQ(chosen({}, 4 * kTiles), Accel::tiles);
-  EXPECT_EQ(chosen({}, 4 * kTiles + 1), Accel::bvh);
+  EXPECT_EQ(chosen({}, kMost), Accel::tiles);
+  EXPECT_EQ(chosen({}, kMost + 1), Accel::bvh);
 }
 
 TEST(ChosenAccel, IsTheTreeOnADeviceWithoutSubgroupOperations) {
   EXPECT_EQ(chosen({.subgroups = false}, 1), Accel::bvh);
-  EXPECT_EQ(chosen({.subgroups = false}, 4 * kTiles + 1), Accel::bvh);
+  EXPECT_EQ(chosen({.subgroups = false}, kMost + 1), Accel::bvh);
   // Rays go down the tree one by one there, by a kernel that needs no subgroups.
   EXPECT_EQ(tracing_kernels(Accel::bvh, 0, false), (std::vector<const char*>{"trace_bvh"}));
   // The user's own choice stays, for the tracer to refuse.
