@@ -80,7 +80,7 @@ struct ProjectedSubpatch {
 struct TileList {
   uint count;  // of the subpatches
   uint end;    // index of the first entry after the list's; NOT_LISTED: there is no list, for the
-             // tile has more than TILE_CAPACITY subpatches, or there is no room for them
+               // tile has more than TILE_CAPACITY subpatches, or there is no room for them
 };
 
 // What the lists of a band of the image add up to, for the host to read.

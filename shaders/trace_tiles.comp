@@ -116,7 +116,8 @@ void intersect_packet(uint subpatch, PixelRay ray, vec2 position, INOUT(Traversa
   ProjectedSubpatch projection = load_uniform(subpatch);
   if (COUNTS) traversal.counts.bytes += EIGHT_LANES ? LANE_SHARE_BYTES : PROJECTED_BYTES;
   // For the other surfaces Newton's method needs nothing of the triangle beyond the record.
-  if (COUNTS && SURFACE == SURFACE_SPHERE) traversal.counts.bytes += TRIANGLE_BYTES;
+  bool needs_triangle = SURFACE != SURFACE_FLAT && !is_cubic(scene_shape());
+  if (COUNTS && needs_triangle) traversal.counts.bytes += EIGHT_LANES ? TRIANGLE_SHARE_BYTES : TRIANGLE_BYTES;
   FramedPatch framed;
   framed.P0 = projection.P0.xyz;
   framed.P1 = projection.P1.xyz;
@@ -131,7 +132,7 @@ void intersect_packet(uint subpatch, PixelRay ray, vec2 position, INOUT(Traversa
   bounds.sub_triangle = vec4(projection.D0.w, projection.D1.w, projection.D2.w, projection.sizes.x);
   bounds.cone = projection.cone;
   Triangle tri;
-  if (EIGHT_LANES && !is_cubic(scene_shape())) {
+  if (EIGHT_LANES && needs_triangle) {
     tri = load_triangle(projection.triangle);
   } else {
     tri = triangles[projection.triangle];
