@@ -140,7 +140,7 @@ TEST_F(Acceleration, HandlesListsThatDoNotFit) {
   const std::size_t limit = layers * sizeof(Triangle);
   // A band is of 6 rows of 10 tiles.
   ASSERT_EQ(limit / (80 * sizeof(PixelAovs)) / TILE_SIZE, 6U);
-  ASSERT_LT(limit, 6 * 10 * layers * sizeof(uint32_t));
+  ASSERT_LT(limit, std::size_t{6} * 10 * layers * sizeof(uint32_t));
   expect_all_equal(scene, settings, "", limit);
 }
 
