@@ -159,13 +159,13 @@ TEST_F(Crosscheck, ConventionsAreTheSame) {
 TEST_F(Crosscheck, ImagesComeInBands) {
   const Mesh mesh = test::load_asset("sphere-20");
   const BakedScene scene = baked(mesh, {}, SOLVER_ROBUST);
-  TraceSettings settings = test::framed(mesh, scene, 100, 61, 10);
+  TraceSettings settings = test::framed(mesh, scene, 200, 61, 10);
   settings.solver = SOLVER_ROBUST;
   for (const GlPath path : {GlPath::compute, GlPath::fragment}) {
     const Frame whole = trace_by_opengl(scene, settings, path);
     // The buffer holds 16 rows, so the image is rendered in four bands.
     const Frame banded =
-        trace_by_opengl(scene, settings, path, std::size_t{100} * 20 * sizeof(PixelAovs));
+        trace_by_opengl(scene, settings, path, std::size_t{200} * 20 * sizeof(PixelAovs));
     const FrameComparison found = compare(whole, banded);
     EXPECT_EQ(found.hit_mismatches, 0U);
     EXPECT_EQ(found.depth->patch_mismatches, 0U);
