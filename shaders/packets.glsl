@@ -7,7 +7,7 @@
 const uint CHILDREN = 8u;
 const uint SUBPATCH_WORDS = 6u;
 // Bytes that one lane reads in load_uniform, and of an entry of the BVH to see what it links to.
-const uint LANE_SHARE_BYTES = 48u;
+const uint LANE_SHARE_BYTES = 16u + TRIANGLE_SHARE_BYTES;
 const uint LINK_BYTES = 4u;
 // A packet gives up after so many steps, because llvmpipe ends all loops of a subgroup after 65535 iterations. Its rays
 // then start over one by one, in trace_bvh.comp.

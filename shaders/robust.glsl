@@ -329,10 +329,8 @@ Fit fit_bounds(Shape shape, Triangle tri, SubpatchBounds bounds, SubTriangle nod
   vec3 c = centre_of(node);
   Displacement sigma = displacement_and_derivatives(shape, tri, c);
   ++evaluations;
-  real e = sigma.s - blossom(fit.corner, fit.edge, c, c);
-  real eu = sigma.u - real(2.0) * blossom(fit.corner, fit.edge, c, vec3(-1.0, 1.0, 0.0));
-  real ev = sigma.v - real(2.0) * blossom(fit.corner, fit.edge, c, vec3(-1.0, 0.0, 1.0));
-  add_linear(fit, c, e, vec2(eu, ev));
+  Displacement q = quadratic_displacement(bounds, c);
+  add_linear(fit, c, sigma.s - q.s, vec2(sigma.u - q.u, sigma.v - q.v));
   // No point of the node with its overlap is farther from the centre than this, in the plane of the weights 1 and 2:
   // sqrt(5) / 3 of its size.
   real away = real(0.7454) * (real(1.0) + real(3.0) * OVERLAP) * abs(node.size);

@@ -1,5 +1,5 @@
-// Candidates of a ray: the subpatches in the list of its tile whose bounding balls it meets. A tile
-// without a list has all subpatches of the scene for candidates.
+// Candidates of a ray: the subpatches in the list of its tile whose bounding balls it meets. A tile without a list has all
+// subpatches of the scene for candidates.
 
 layout(std430, binding = BINDING_TILE_LISTS) readonly restrict buffer TileListsBlock { TileList tile_lists[]; };
 layout(std430, binding = BINDING_TILE_SUBPATCHES) readonly restrict buffer TileSubpatchesBlock {

@@ -78,12 +78,19 @@ SceneBuffers::SceneBuffers(const gpu::Device& device, const BakedScene& scene,
   std::memcpy(addresses_.bytes().data(), &addresses, sizeof(addresses));
 }
 
-void SceneBuffers::set_projected(const gpu::Buffer& projected) {
+template <typename Change>
+void SceneBuffers::change_addresses(Change&& change) {
   Addresses addresses{};
   std::memcpy(&addresses, addresses_.bytes().data(), sizeof(addresses));
-  addresses.projected_low = low(projected.address());
-  addresses.projected_high = high(projected.address());
+  change(addresses);
   std::memcpy(addresses_.bytes().data(), &addresses, sizeof(addresses));
+}
+
+void SceneBuffers::set_projected(const gpu::Buffer& projected) {
+  change_addresses([&](Addresses& addresses) {
+    addresses.projected_low = low(projected.address());
+    addresses.projected_high = high(projected.address());
+  });
 }
 
 void SceneBuffers::upload(gpu::Staging& staging, gpu::Commands& commands, const BakedScene& scene) {
@@ -115,13 +122,12 @@ void SceneBuffers::build_boxes(const gpu::Device& device, gpu::Staging& staging,
                         : inflated(exact_boxes[i], kBoxSlack * scene_radius));
   }
   boxes_ = std::make_unique<gpu::AabbAccelerationStructure>(device, staging, commands, boxes);
-  Addresses addresses{};
-  std::memcpy(&addresses, addresses_.bytes().data(), sizeof(addresses));
-  addresses.boxes_low = low(boxes_->address());
-  addresses.boxes_high = high(boxes_->address());
-  // The kernel clips rays to a ball of this radius: it must hold the enlarged boxes.
-  addresses.scene_radius = scene_radius * (1.0F + 2.0F * kBoxSlack);
-  std::memcpy(addresses_.bytes().data(), &addresses, sizeof(addresses));
+  change_addresses([&](Addresses& addresses) {
+    addresses.boxes_low = low(boxes_->address());
+    addresses.boxes_high = high(boxes_->address());
+    // The kernel clips rays to a ball of this radius: it must hold the enlarged boxes.
+    addresses.scene_radius = scene_radius * (1.0F + 2.0F * kBoxSlack);
+  });
 }
 
 }  // namespace trisect

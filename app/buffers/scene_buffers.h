@@ -74,6 +74,10 @@ class SceneBuffers {
   SceneBuffers(const gpu::Device& device, const BakedScene& scene, const Placement& placement,
                bool with_bvh);
 
+  // Calls change(addresses) with what kernels see as Addresses.
+  template <typename Change>
+  void change_addresses(Change&& change);
+
   bool by_address_;
   bool bound_;
   bool with_bvh_;

@@ -79,12 +79,13 @@ TileTotals TileLists::counted() const {
 }
 
 bool TileLists::grow(const gpu::Device& device) {
+  const std::size_t room = tiles_.subpatches.size() / sizeof(uint32_t);
+  const std::size_t needed = counted().entries;
   // A quarter more than is needed, so that a camera that moves does not ask for more in each frame.
-  const std::size_t needed = counted().entries * sizeof(uint32_t);
-  const std::size_t bytes = std::min(needed + needed / 4, buffer_limit_ / 4 * 4);
-  if (needed <= tiles_.subpatches.size() || bytes <= tiles_.subpatches.size()) return false;
+  const std::size_t larger = std::min(needed + needed / 4, buffer_limit_ / sizeof(uint32_t));
+  if (needed <= room || larger <= room) return false;
   tiles_.subpatches =
-      gpu::Buffer(device, bytes / 4 * 4, gpu::Memory::device, "subpatches of tiles");
+      gpu::Buffer(device, larger * sizeof(uint32_t), gpu::Memory::device, "subpatches of tiles");
   return true;
 }
 
