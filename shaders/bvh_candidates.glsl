@@ -1,9 +1,11 @@
-// Candidates of a ray: the subpatches whose bounding boxes it meets, found by the scene's BVH. The items of its traversal
-// are entries of the BVH.
+// Candidates of a ray: the subpatches whose bounding boxes it meets, found by the scene's BVH front to back. There is no
+// stack, so that the item is all that is kept of a traversal which pauses: from a node whose children are done it returns to
+// the parent, whose later children are then tested once more, against a hit that may be nearer.
 
 bool no_candidates_left(PixelRay ray, uint item) { return item == BVH_END; }
 
-uint next_item(uint item) { return bvh[item].next; }
+// The next child of the same node.
+uint next_item(uint item) { return item + 1u; }
 
 // The length by which boxes are enlarged for a ray: several rounding errors of its points.
 float slack_of(PixelRay ray) { return BVH_SLACK * ray.frame.stretch * length3(ray.anchor); }
@@ -14,31 +16,90 @@ vec3 inverse_of(vec3 a) {
   return vec3(1.0) / mix(a, least, lessThan(abs(a), least));
 }
 
+// Place k of a ray that goes back along these axes is child k ^ octant.
+uint octant_of(bvec3 back) { return (back.x ? 1u : 0u) + (back.y ? 2u : 0u) + (back.z ? 4u : 0u); }
+
+// The planes of a corner of a child's box along each axis.
+vec3 planes_of(uint corner) {
+  const uint mask = (1u << BVH_PLANE_BITS) - 1u;
+  return vec3(uvec3(corner, corner >> BVH_PLANE_BITS, corner >> (2u * BVH_PLANE_BITS)) & mask);
+}
+
+// What a traversal needs of its ray.
+struct BoxRay {
+  vec3 anchor;
+  vec3 inverse;  // 1 / direction
+  vec3 slack;    // along the ray, for the slabs of each axis
+  uint octant;   // octant_of() the axes on which it goes back
+  uint back;     // the bits of a corner's planes along these axes
+  float begin;   // least distance along the ray
+};
+
+BoxRay box_ray(PixelRay ray) {
+  BoxRay boxed;
+  boxed.anchor = ray.anchor;
+  boxed.inverse = inverse_of(ray.view);
+  boxed.slack = slack_of(ray) * abs(boxed.inverse);
+  bvec3 back = lessThan(boxed.inverse, vec3(0.0));
+  const uint mask = (1u << BVH_PLANE_BITS) - 1u;
+  boxed.octant = octant_of(back);
+  boxed.back = (back.x ? mask : 0u) | (back.y ? mask << BVH_PLANE_BITS : 0u) |
+               (back.z ? mask << (2u * BVH_PLANE_BITS) : 0u);
+  boxed.begin = ray.frame.stretch * ray.nearest;
+  return boxed;
+}
+
+// Whether the ray may meet the box of a child before the distance `end`; false is certain. Boxes are tested by slabs (Kay &
+// Kajiya 1986, "Ray tracing complex scenes").
+bool may_meet_child(BoxRay ray, vec3 origin, vec3 grid_step, uvec2 box, float end) {
+  uint near = (box.x & ~ray.back) | (box.y & ray.back);
+  uint far = (box.y & ~ray.back) | (box.x & ray.back);
+  vec3 enter = (origin + planes_of(near) * grid_step - ray.anchor) * ray.inverse - ray.slack;
+  vec3 leave = (origin + planes_of(far) * grid_step - ray.anchor) * ray.inverse + ray.slack;
+  float first = max(max(enter.x, enter.y), max(enter.z, ray.begin));
+  float last = min(min(leave.x, leave.y), min(leave.z, end));
+  return first <= last + BVH_SLACK * (abs(first) + abs(last));
+}
+
+// Bit k: the ray may meet the node's child at place k before `end`.
+uint places_met(BoxRay ray, uint node, float end) {
+  BvhNode at = bvh[node];
+  vec3 origin = vec3(at.origin_x, at.origin_y, at.origin_z);
+  vec3 grid_step = vec3(at.step_x, at.step_y, at.step_z);
+  uint met = 0u;
+  for (uint k = 0u; k < 8u; ++k) {
+    if (may_meet_child(ray, origin, grid_step, at.boxes[k], end)) met |= 1u << k;
+  }
+  met &= at.children;
+  // From children to places: neighbours change places along each axis on which the ray goes back.
+  met = (ray.octant & 1u) != 0u ? (met & 0x55u) << 1 | (met >> 1 & 0x55u) : met;
+  met = (ray.octant & 2u) != 0u ? (met & 0x33u) << 2 | (met >> 2 & 0x33u) : met;
+  return (ray.octant & 4u) != 0u ? (met & 0x0Fu) << 4 | met >> 4 : met;
+}
+
 // The next candidate, which is that of traversal.item on return; NO_TRIANGLE if there is none, or if no steps are left.
-// Boxes are tested by slabs (Kay & Kajiya 1986, "Ray tracing complex scenes").
 uint find_candidate(PixelRay ray, INOUT(Traversal) traversal) {
-  vec3 inverse = inverse_of(ray.view);
-  vec3 slack = vec3(slack_of(ray));
-  float begin = ray.frame.stretch * ray.nearest;
+  BoxRay boxed = box_ray(ray);
+  float end = ray.frame.stretch * traversal.hit.z;
   uint subpatch = NO_TRIANGLE;
   while (traversal.item != BVH_END && traversal.steps > 0 && subpatch == NO_TRIANGLE) {
     --traversal.steps;
-    BvhEntry entry = bvh[traversal.item];
-    if (COUNTS) traversal.counts.bytes += BVH_ENTRY_BYTES;
-    vec3 a = (vec3(entry.lo_x, entry.lo_y, entry.lo_z) - slack - ray.anchor) * inverse;
-    vec3 b = (vec3(entry.hi_x, entry.hi_y, entry.hi_z) + slack - ray.anchor) * inverse;
-    vec3 enter = min(a, b);
-    vec3 leave = max(a, b);
-    float first = max(max(enter.x, enter.y), max(enter.z, begin));
-    float last = min(min(leave.x, leave.y), min(leave.z, ray.frame.stretch * traversal.hit.z));
-    if (entry.link == BVH_EMPTY || !(first <= last + BVH_SLACK * (abs(first) + abs(last)))) {
-      traversal.item = entry.next;
-      traversal.path = WHOLE;
-    } else if (entry.link >= BVH_LEAF) {
-      subpatch = entry.link - BVH_LEAF;
+    uint node = traversal.item / BVH_PLACES;
+    uint met = places_met(boxed, node, end) & (~0u << (traversal.item % BVH_PLACES));
+    if (COUNTS) traversal.counts.bytes += BVH_TEST_BYTES + BVH_LINK_BYTES;
+    uint item;
+    if (met == 0u) {
+      uint parent = bvh[node].parent;
+      item = parent == BVH_END ? BVH_END : next_item(parent ^ boxed.octant);
     } else {
-      traversal.item = entry.link;
+      uint place = uint(findLSB(met));
+      uint link = bvh[node].links[place ^ boxed.octant];
+      bool leaf = link >= BVH_LEAF;
+      item = leaf ? node * BVH_PLACES + place : link;
+      if (leaf) subpatch = link - BVH_LEAF;
     }
+    if (item != traversal.item) traversal.path = WHOLE;
+    traversal.item = item;
   }
   return subpatch;
 }

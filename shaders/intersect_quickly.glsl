@@ -12,3 +12,14 @@ void intersect_quickly(Triangle tri, uint triangle, SubpatchBounds bounds, Frame
   add_pending(subpatch, near && found == UNDECIDED, pending);
   if (near && found == FOUND_ROOT) keep_nearest(z, weights, triangle, subpatch, ray.nearest, traversal.hit);
 }
+
+// The same with a subpatch that is as the bake left it.
+void intersect_patch_quickly(Triangle tri, SubpatchBounds bounds, uint subpatch, PixelRay ray, bool near,
+                             inout Traversal traversal, inout Pending pending) {
+  precise FramedPatch framed = sheared_patch(ray.frame, rotated_patch(ray.frame, SHELL, tri));
+  float tolerance = position_tolerance(ray.frame, tri);
+  ControlNet net = control_net(framed, bounds.corner.xyz, bounds.edge.xyz,
+                               with_overlap(sub_triangle_at(bounds.sub_triangle, WHOLE)));
+  near = near && hull_overlaps_ray(net, ray.frame.stretch * bounds.corner.w + tolerance);
+  intersect_quickly(tri, bounds.triangle, bounds, framed, subpatch, ray, tolerance, near, traversal, pending);
+}

@@ -6,9 +6,10 @@
 
 const uint CHILDREN = 8u;
 const uint SUBPATCH_WORDS = 6u;
-// Bytes that one lane reads in load_uniform, and of an entry of the BVH to see what it links to.
+// Bytes that one lane reads in load_uniform, and of a node to test its children.
 const uint LANE_SHARE_BYTES = 16u + TRIANGLE_SHARE_BYTES;
-const uint LINK_BYTES = 4u;
+const uint NODE_SHARE_BYTES = 24u;
+const uint NODE_WORDS = 8u;
 // A packet gives up after so many steps, because llvmpipe ends all loops of a subgroup after 65535 iterations. Its rays
 // then start over one by one, in trace_bvh.comp.
 const int PACKET_STEPS = 16000;
@@ -23,7 +24,7 @@ struct Packet {
   vec3 least_inverse;  // bounds of the reciprocals of the directions on mirrored axes
   vec3 most_inverse;
   float begin;  // the least distance along a ray at which one of them begins
-  uint octant;  // bit k is set if axis k is mirrored
+  uint octant;  // octant_of() the mirrored axes
 };
 
 vec3 subgroup_min(vec3 a) { return vec3(subgroupMin(a.x), subgroupMin(a.y), subgroupMin(a.z)); }
@@ -47,7 +48,7 @@ Packet packet_of(PixelRay ray, bool is_active) {
   packet.least_inverse = vec3(1.0) / mix(most, -least, back);
   packet.most_inverse = vec3(1.0) / mix(least, -most, back);
   packet.begin = subgroupMin(ray.frame.stretch * ray.nearest);
-  packet.octant = (back.x ? 1u : 0u) + (back.y ? 2u : 0u) + (back.z ? 4u : 0u);
+  packet.octant = octant_of(back);
   return packet;
 }
 
@@ -65,11 +66,11 @@ bool may_meet_box(Packet packet, vec3 box_lo, vec3 box_hi, float end) {
   return first <= last + BVH_SLACK * (abs(first) + abs(last));
 }
 
-// A packet's depth-first traversal of the BVH. Children are numbered in the order in which the packet meets them, front to
-// back: child k is entry k ^ octant of its node.
+// A packet's depth-first traversal of the BVH. Children are visited by their places, in the order in which the packet meets
+// them, front to back: at place k is child k ^ octant.
 struct PacketTraversal {
-  uint node;         // the current node's first entry
-  uint to_visit;     // bit k: the node's child k is met and not yet visited
+  uint node;         // the current node's number
+  uint to_visit;     // bit k: the child at place k is met and not yet visited
   int stack_height;  // of subgroup_stacks
   int steps;         // left until the packet gives up
   uint bytes;        // that this invocation has read, its share of what the subgroup loads together
@@ -80,12 +81,18 @@ struct PacketTraversal {
 // One lane writes what all of them read.
 shared uint subgroup_stacks[TILE_SIZE * TILE_SIZE / CHILDREN][BVH_LEVELS];
 
-// Bit k: the packet may meet the node's child k before `end`. node: its first entry.
-uint children_met(Packet packet, uint node, float end) {
-  uint k = gl_SubgroupInvocationID;
-  BvhEntry entry = bvh[node + ((k & (CHILDREN - 1u)) ^ packet.octant)];
-  bool met = k < CHILDREN && entry.link != BVH_EMPTY &&
-             may_meet_box(packet, vec3(entry.lo_x, entry.lo_y, entry.lo_z), vec3(entry.hi_x, entry.hi_y, entry.hi_z), end);
+// Bit k: the packet may meet the node's child at place k before `end`. Each lane tests one child; one of two lanes loads the
+// grid's origin and the other its steps, for the reason given in broadcast.glsl.
+uint packet_places_met(Packet packet, uint node, float end) {
+  uint lane = gl_SubgroupInvocationID;
+  uint child = (lane & (CHILDREN - 1u)) ^ packet.octant;
+  uvec4 loaded = bvh_words[node * NODE_WORDS + (lane & 1u)];
+  vec3 origin = uintBitsToFloat(subgroupBroadcast(loaded, 0).xyz);
+  uvec4 grid_step = subgroupBroadcast(loaded, 1);
+  uvec2 box = bvh[node].boxes[child];
+  vec3 lo = origin + planes_of(box.x) * uintBitsToFloat(grid_step.xyz);
+  vec3 hi = origin + planes_of(box.y) * uintBitsToFloat(grid_step.xyz);
+  bool met = lane < CHILDREN && (grid_step.w >> child & 1u) != 0u && may_meet_box(packet, lo, hi, end);
   return subgroupBallot(met).x;
 }
 
@@ -93,10 +100,10 @@ uint children_met(Packet packet, uint node, float end) {
 PacketTraversal begin_packet_traversal(Packet packet) {
   PacketTraversal traversal;
   traversal.node = 0u;
-  traversal.to_visit = children_met(packet, 0u, 1e30);
+  traversal.to_visit = packet_places_met(packet, 0u, 1e30);
   traversal.stack_height = 0;
   traversal.steps = PACKET_STEPS;
-  traversal.bytes = BVH_ENTRY_BYTES;
+  traversal.bytes = NODE_SHARE_BYTES;
   return traversal;
 }
 
@@ -114,15 +121,15 @@ uint next_packet_candidate(Packet packet, PixelRay ray, float z, inout PacketTra
     if (up && !ended) {
       --traversal.stack_height;
       uint top = subgroup_stacks[gl_SubgroupID][traversal.stack_height];
-      traversal.node = (top >> CHILDREN) * CHILDREN;
+      traversal.node = top >> CHILDREN;
       traversal.to_visit = top & ((1u << CHILDREN) - 1u);
     }
     if (!ended) {
       uint k = uint(findLSB(traversal.to_visit));
       traversal.to_visit &= traversal.to_visit - 1u;
-      uint link = bvh[traversal.node + (k ^ packet.octant)].link;
+      uint link = bvh[traversal.node].links[k ^ packet.octant];
       if (link >= BVH_LEAF) {
-        if (COUNTS) traversal.bytes += LINK_BYTES + BALL_BYTES;
+        if (COUNTS) traversal.bytes += BVH_LINK_BYTES + BALL_BYTES;
         near = !misses_ball(ray, uintBitsToFloat(subpatch_words[(link - BVH_LEAF) * SUBPATCH_WORDS]), z);
         // Decided in this loop and not by the caller, because llvmpipe executes branches that no invocation takes.
         if (subgroupAny(near)) {
@@ -133,14 +140,14 @@ uint next_packet_candidate(Packet packet, PixelRay ray, float z, inout PacketTra
         if (traversal.to_visit != 0u) {
           if (subgroupElect()) {
             subgroup_stacks[gl_SubgroupID][traversal.stack_height] =
-                (traversal.node / CHILDREN << CHILDREN) + traversal.to_visit;
+                (traversal.node << CHILDREN) + traversal.to_visit;
           }
           subgroupMemoryBarrierShared();
           ++traversal.stack_height;
         }
-        traversal.node = link;
-        traversal.to_visit = children_met(packet, link, end);
-        if (COUNTS) traversal.bytes += LINK_BYTES + BVH_ENTRY_BYTES;
+        traversal.node = link / BVH_PLACES;
+        traversal.to_visit = packet_places_met(packet, traversal.node, end);
+        if (COUNTS) traversal.bytes += BVH_LINK_BYTES + NODE_SHARE_BYTES;
       }
     }
   } while (subpatch == NO_TRIANGLE && !ended);

@@ -39,18 +39,26 @@ struct SubpatchBounds {
   uint skip;
 };
 
-// One of the eight children of a node of the bounding volume hierarchy over the subpatches' boxes,
-// 32 bytes. Node n has the entries 8 n to 8 n + 7, in the order of octants: bit k of a child's
-// number is set if it lies on the far side along axis k.
-struct BvhEntry {
-  float lo_x;  // of a box that contains the child
-  float lo_y;
-  float lo_z;
-  uint link;  // first entry of the child's node, BVH_LEAF + index of a subpatch, or BVH_EMPTY
-  float hi_x;
-  float hi_y;
-  float hi_z;
-  uint next;  // the entry after this one and all below it, or BVH_END
+// A node of the bounding volume hierarchy over the subpatches' boxes, 128 bytes. The boxes of its
+// eight children are on a grid of 1024 planes along each axis, of which plane q is at origin + q
+// step (Ylitie, Karras & Laine 2017, "Efficient incoherent ray traversal on GPUs through compressed
+// wide BVHs", section 3.1, with bytes). The children are in the order of octants: bit k of a
+// child's number is set if it lies on the far side along axis k.
+//
+// An item of a traversal is BVH_PLACES times the node's number plus a place, 0 to 8, in the order
+// in which the ray meets the children.
+struct BvhNode {
+  float origin_x;
+  float origin_y;
+  float origin_z;
+  uint parent;  // the item of the parent of which this node is the child; BVH_END for the root
+  float step_x;
+  float step_y;
+  float step_z;
+  uint children;   // bit k: there is a child k
+  uvec2 boxes[8];  // x: the planes of the least corner, BVH_PLANE_BITS for each axis; y: of the
+                   // largest
+  uint links[8];   // of each child: its node's first item, or BVH_LEAF + index of a subpatch
 };
 
 // What a frame's camera sees of a subpatch, 192 bytes, written anew for every frame. Image
@@ -167,7 +175,9 @@ struct QueueState {
 const uint TRIANGLE_BYTES = 192u;
 const uint SUBPATCH_BYTES = 96u;
 const uint BALL_BYTES = 16u;  // Triangle::Domain or SubpatchBounds::ball
-const uint BVH_ENTRY_BYTES = 32u;
+// Of a node, to test its children, and to see what one of them links to.
+const uint BVH_TEST_BYTES = 96u;
+const uint BVH_LINK_BYTES = 4u;
 
 // Which paused rays a submit goes on with.
 struct QueuePush {
@@ -260,13 +270,14 @@ const float CONE_MARGIN = 0.125;
 
 // Boxes are widened by this part of the scene's radius when the tree is built, and by this part of
 // the distance of a ray's anchor when a ray is tested: more than the solver's tolerance, by which a
-// root may lie beside the surface, and than the roundings of a position.
+// root may lie beside the surface, and than the roundings of a position or of a node's plane.
 const float BVH_SLACK = 0.00000095367431640625;  // 2^-20
 // Most levels of the tree, and most nodes, as a packet's stack has 24 bits for a node's number.
 const int BVH_LEVELS = 32;
 const uint BVH_MOST_NODES = 16777216u;
-// Values of BvhEntry::link and next.
-const uint BVH_EMPTY = 0u;
+const uint BVH_PLACES = 16u;
+const uint BVH_PLANE_BITS = 10u;
+// Values of BvhNode::links and parent.
 const uint BVH_LEAF = 2147483648u;
 const uint BVH_END = 4294967295u;
 

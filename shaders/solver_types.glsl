@@ -59,7 +59,7 @@ struct Counts {
 struct Traversal {
   Hit hit;
   Counts counts;
-  uint item;  // the next of the list, or the next entry of the tree
+  uint item;  // the next of the list, or of the tree (BvhNode)
   uint path;  // within it, the next node: WHOLE, or 4 p + k for child k of the node with path p
   int steps;  // left before the ray pauses: no iteration of a loop begins without one
 };

@@ -26,19 +26,6 @@ layout(local_size_x = TILE_SIZE * TILE_SIZE) in;
 #include "broadcast_triangle.glsl"
 #include "packets.glsl"
 
-// Intersects all rays of the subgroup with one subpatch; near: whether this invocation's ray meets its ball.
-void intersect_packet(uint subpatch, PixelRay ray, bool near, inout Traversal traversal, inout Pending pending) {
-  precise SubpatchBounds bounds;
-  precise Triangle tri;
-  load_uniform(subpatch, bounds, tri);
-  precise FramedPatch framed = sheared_patch(ray.frame, rotated_patch(ray.frame, SHELL, tri));
-  float tolerance = position_tolerance(ray.frame, tri);
-  ControlNet net = control_net(framed, bounds.corner.xyz, bounds.edge.xyz,
-                               with_overlap(sub_triangle_at(bounds.sub_triangle, WHOLE)));
-  near = near && hull_overlaps_ray(net, ray.frame.stretch * bounds.corner.w + tolerance);
-  intersect_quickly(tri, bounds.triangle, bounds, framed, subpatch, ray, tolerance, near, traversal, pending);
-}
-
 void main() {
   uint tile = push.first_group + gl_WorkGroupID.x;
   uint columns = tiles_across(params.width);
@@ -52,7 +39,12 @@ void main() {
   uint subpatch;
   do {
     subpatch = next_packet_candidate(packet, ray, traversal.hit.z, packet_traversal, near);
-    if (subpatch != NO_TRIANGLE) intersect_packet(subpatch, ray, near, traversal, pending);
+    if (subpatch != NO_TRIANGLE) {
+      precise SubpatchBounds bounds;
+      precise Triangle tri;
+      load_uniform(subpatch, bounds, tri);
+      intersect_patch_quickly(tri, bounds, subpatch, ray, near, traversal, pending);
+    }
     end_in_shadow(traversal);
   } while (subpatch != NO_TRIANGLE);
   if (packet_traversal.steps <= 0) pending.count = TOO_MANY_PENDING;

@@ -102,7 +102,7 @@ Triangle bake_triangle(const std::array<dvec3, 3>& positions, const std::array<d
 
 std::size_t device_bytes(const BakedScene& scene) {
   return scene.triangles.size() * sizeof(Triangle) +
-         scene.subpatches.size() * sizeof(SubpatchBounds) + scene.bvh.size() * sizeof(BvhEntry);
+         scene.subpatches.size() * sizeof(SubpatchBounds) + scene.bvh.size() * sizeof(BvhNode);
 }
 
 BakedScene bake(const Mesh& mesh, const SurfaceChoice& choice) {

@@ -18,7 +18,7 @@ struct BakedScene {
   glm::dvec3 origin{0.0};
   std::vector<Triangle> triangles;         // in the order of the mesh
   std::vector<SubpatchBounds> subpatches;  // for the robust solver; empty if it is not used
-  std::vector<BvhEntry> bvh;               // over the subpatches; empty if none is needed
+  std::vector<BvhNode> bvh;                // over the subpatches; empty if none is needed
   double extent = 0.0;                     // half the diagonal of the bounding box
   double radius = 0.0;  // of the ball about `origin` that contains every triangle's Domain
 };

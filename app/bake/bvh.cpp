@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <new>
 #include <optional>
-#include <span>
 #include <stdexcept>
 #include <string>
 
-#include "app/bake/subpatch_boxes.h"
 #include "app/base/error.h"
 
 namespace trisect {
@@ -72,15 +71,6 @@ struct ReleaseBvh {
   void operator()(RTCBVH bvh) const { rtcReleaseBVH(bvh); }
 };
 
-void set_box(BvhEntry& entry, const SubpatchBox& box) {
-  entry.lo_x = box.lo.x;
-  entry.lo_y = box.lo.y;
-  entry.lo_z = box.lo.z;
-  entry.hi_x = box.hi.x;
-  entry.hi_y = box.hi.y;
-  entry.hi_z = box.hi.z;
-}
-
 SubpatchBox around(const SubpatchBox& a, const SubpatchBox& b) {
   return {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)};
 }
@@ -126,38 +116,113 @@ std::array<uint32_t, kChildren> octants_of(const Branch& branch) {
   }
 }
 
-// Appends the eight entries of a branch and all that is below it. `next`: the entry at which a ray
-// goes on after the branch. `level`: of the branch, 0 for the root.
-void flatten(const Branch& branch, int level, uint32_t next, std::vector<BvhEntry>& bvh) {
-  if (level == BVH_LEVELS || bvh.size() / kChildren == BVH_MOST_NODES) {
+// The planes of a node along one axis.
+struct Grid {
+  float origin;
+  float step;
+
+  [[nodiscard]] float plane(uint32_t q) const { return origin + static_cast<float>(q) * step; }
+};
+
+constexpr uint32_t kLastPlane = (1U << BVH_PLANE_BITS) - 1U;
+
+// The finest grid from lo to hi. Its step is not denormal, for a device may take that for 0.
+Grid grid_over(float lo, float hi) {
+  Grid grid{
+      lo, std::max((hi - lo) / static_cast<float>(kLastPlane), std::numeric_limits<float>::min())};
+  while (grid.plane(kLastPlane) < hi) {
+    grid.step = std::nextafter(grid.step, std::numeric_limits<float>::infinity());
+  }
+  return grid;
+}
+
+// The last plane at or below x, which is not below the grid, and the first at or above it.
+uint32_t plane_below(const Grid& grid, float x) {
+  auto q = static_cast<uint32_t>(
+      std::clamp((x - grid.origin) / grid.step, 0.0F, static_cast<float>(kLastPlane)));
+  while (q > 0 && grid.plane(q) > x) --q;
+  return q;
+}
+uint32_t plane_above(const Grid& grid, float x) {
+  uint32_t q = plane_below(grid, x);
+  while (q < kLastPlane && grid.plane(q) < x) ++q;
+  return q;
+}
+
+// The planes of a corner as BvhNode::boxes has them, and back.
+uint corner_of(uint32_t x, uint32_t y, uint32_t z) {
+  return x | y << BVH_PLANE_BITS | z << (2U * BVH_PLANE_BITS);
+}
+vec3 planes_of(uint corner) {
+  return {corner & kLastPlane, corner >> BVH_PLANE_BITS & kLastPlane,
+          corner >> (2U * BVH_PLANE_BITS) & kLastPlane};
+}
+
+bool has_child(const BvhNode& node, uint32_t k) {
+  return (node.children >> k & 1U) != 0;
+}
+
+// The box around those of a node's children.
+SubpatchBox around_children(const BvhNode& node, const std::array<SubpatchBox, kChildren>& boxes) {
+  SubpatchBox all = no_box();
+  for (uint32_t k = 0; k < kChildren; ++k) {
+    if (has_child(node, k)) all = around(all, boxes[k]);
+  }
+  return all;
+}
+
+// Sets the node's grid and the boxes of its children.
+void set_boxes(BvhNode& node, const std::array<SubpatchBox, kChildren>& boxes) {
+  const SubpatchBox all = around_children(node, boxes);
+  const Grid x = grid_over(all.lo.x, all.hi.x);
+  const Grid y = grid_over(all.lo.y, all.hi.y);
+  const Grid z = grid_over(all.lo.z, all.hi.z);
+  node.origin_x = x.origin;
+  node.origin_y = y.origin;
+  node.origin_z = z.origin;
+  node.step_x = x.step;
+  node.step_y = y.step;
+  node.step_z = z.step;
+  for (uint32_t k = 0; k < kChildren; ++k) {
+    if (!has_child(node, k)) continue;
+    const SubpatchBox& box = boxes[k];
+    node.boxes[k] = {
+        corner_of(plane_below(x, box.lo.x), plane_below(y, box.lo.y), plane_below(z, box.lo.z)),
+        corner_of(plane_above(x, box.hi.x), plane_above(y, box.hi.y), plane_above(z, box.hi.z))};
+  }
+}
+
+// Appends a branch and all that is below it. parent: as in BvhNode. `level`: of the branch, 0 for
+// the root.
+void flatten(const Branch& branch, int level, uint32_t parent, std::vector<BvhNode>& bvh) {
+  if (level == BVH_LEVELS || bvh.size() == BVH_MOST_NODES) {
     throw InputError("the model has more patches than a tree may hold; use --accel list.");
   }
-  const auto first = static_cast<uint32_t>(bvh.size());
-  bvh.resize(first + kChildren);
+  const auto number = static_cast<uint32_t>(bvh.size());
+  bvh.emplace_back();
+  BvhNode node{};
+  node.parent = parent;
   const std::array<uint32_t, kChildren> children = octants_of(branch);
-  for (uint32_t k = kChildren; k-- > 0;) {
-    const uint32_t follows = k + 1 < kChildren ? first + k + 1 : next;
-    BvhEntry entry{};
-    entry.next = follows;
-    entry.link = BVH_EMPTY;
-    set_box(entry, no_box());
-    if (children[k] != NO_TRIANGLE) {
-      const Node& child = *branch.children[children[k]];
-      set_box(entry, branch.boxes[children[k]]);
-      if (child.subpatch != NO_TRIANGLE) {
-        entry.link = BVH_LEAF + child.subpatch;
-      } else {
-        entry.link = static_cast<uint32_t>(bvh.size());
-        flatten(static_cast<const Branch&>(child), level + 1, follows, bvh);
-      }
+  std::array<SubpatchBox, kChildren> boxes{};
+  for (uint32_t k = 0; k < kChildren; ++k) {
+    if (children[k] == NO_TRIANGLE) continue;
+    node.children |= 1U << k;
+    boxes[k] = branch.boxes[children[k]];
+    const Node& child = *branch.children[children[k]];
+    if (child.subpatch != NO_TRIANGLE) {
+      node.links[k] = BVH_LEAF + child.subpatch;
+    } else {
+      node.links[k] = static_cast<uint32_t>(bvh.size()) * BVH_PLACES;
+      flatten(static_cast<const Branch&>(child), level + 1, number * BVH_PLACES + k, bvh);
     }
-    bvh[first + k] = entry;
   }
+  set_boxes(node, boxes);
+  bvh[number] = node;
 }
 
 }  // namespace
 
-std::vector<BvhEntry> build_bvh(const BakedScene& scene) {
+std::vector<BvhNode> build_bvh(const BakedScene& scene) {
   const std::vector<SubpatchBox> boxes = subpatch_boxes(scene);
   std::vector<RTCBuildPrimitive> primitives;
   primitives.reserve(boxes.size());
@@ -190,8 +255,8 @@ std::vector<BvhEntry> build_bvh(const BakedScene& scene) {
                              std::to_string(primitives.size()) + " boxes.");
   }
 
-  std::vector<BvhEntry> bvh;
-  bvh.reserve(primitives.size() * 3 / 2 + kChildren);
+  std::vector<BvhNode> bvh;
+  bvh.reserve(primitives.size() / 4 + 1);
   if (root->subpatch != NO_TRIANGLE) {
     Branch only;
     only.children[0] = root;
@@ -203,29 +268,32 @@ std::vector<BvhEntry> build_bvh(const BakedScene& scene) {
   return bvh;
 }
 
-std::optional<std::vector<BvhEntry>> refitted_bvh(const BakedScene& scene,
-                                                  const BakedScene& other) {
+SubpatchBox child_box(const BvhNode& node, uint32_t k) {
+  const vec3 origin(node.origin_x, node.origin_y, node.origin_z);
+  const vec3 step(node.step_x, node.step_y, node.step_z);
+  return {origin + planes_of(node.boxes[k].x) * step, origin + planes_of(node.boxes[k].y) * step};
+}
+
+std::optional<std::vector<BvhNode>> refitted_bvh(const BakedScene& scene, const BakedScene& other) {
   const bool same_division =
       std::equal(scene.subpatches.begin(), scene.subpatches.end(), other.subpatches.begin(),
                  other.subpatches.end(),
                  [](const SubpatchBounds& a, const SubpatchBounds& b) { return a.skip == b.skip; });
   if (other.bvh.empty() || !same_division) return std::nullopt;
   const std::vector<SubpatchBox> boxes = subpatch_boxes(scene);
-  std::vector<BvhEntry> bvh = other.bvh;
-  // From the end on, as the entries below an entry come after it.
+  std::vector<BvhNode> bvh = other.bvh;
+  // From the last node on, as those below a node come after it.
+  std::vector<SubpatchBox> around_nodes(bvh.size());
   for (std::size_t i = bvh.size(); i-- > 0;) {
-    BvhEntry& entry = bvh[i];
-    if (entry.link == BVH_EMPTY) continue;
-    if (entry.link >= BVH_LEAF) {
-      set_box(entry, boxes[entry.link - BVH_LEAF]);
-      continue;
+    BvhNode& node = bvh[i];
+    std::array<SubpatchBox, kChildren> children{};
+    for (uint32_t k = 0; k < kChildren; ++k) {
+      if (!has_child(node, k)) continue;
+      const uint32_t link = node.links[k];
+      children[k] = link >= BVH_LEAF ? boxes[link - BVH_LEAF] : around_nodes[link / BVH_PLACES];
     }
-    SubpatchBox all = no_box();
-    for (const BvhEntry& child : std::span(bvh).subspan(entry.link, kChildren)) {
-      all =
-          around(all, {{child.lo_x, child.lo_y, child.lo_z}, {child.hi_x, child.hi_y, child.hi_z}});
-    }
-    set_box(entry, all);
+    around_nodes[i] = around_children(node, children);
+    set_boxes(node, children);
   }
   return bvh;
 }

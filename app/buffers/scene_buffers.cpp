@@ -40,7 +40,7 @@ SceneBuffers::Placement SceneBuffers::placement_of(const gpu::Device& device,
                                                    const Needs& needs) {
   const bool too_large = scene.triangles.size() * sizeof(Triangle) > limit ||
                          scene.subpatches.size() * sizeof(SubpatchBounds) > limit ||
-                         (needs.bvh && scene.bvh.size() * sizeof(BvhEntry) > limit);
+                         (needs.bvh && scene.bvh.size() * sizeof(BvhNode) > limit);
   if (needs.by_address == ByAddress::also) return {limit, gpu::Memory::addressed, true};
   const bool by_address =
       needs.by_address == ByAddress::always ||
@@ -64,7 +64,7 @@ SceneBuffers::SceneBuffers(const gpu::Device& device, const BakedScene& scene,
                   placement.memory, "subpatch bounds"),
       // A binding needs a buffer even if no kernel reads it: one entry.
       bvh_(device,
-           with_bvh ? bvh_bytes(device.report().name, placement.limit, scene) : sizeof(BvhEntry),
+           with_bvh ? bvh_bytes(device.report().name, placement.limit, scene) : sizeof(BvhNode),
            placement.memory, "tree"),
       addresses_(device, sizeof(Addresses), gpu::Memory::host, "addresses"),
       unused_(device, sizeof(vec4), gpu::Memory::device, "unused") {

@@ -24,7 +24,7 @@ struct AccelRequest {
 };
 
 // The acceleration that the user asks for. If the user leaves it open, the one that is likely to be
-// the fastest for a scene of so many subpatches: tiles, or the BVH if there are more than four
+// the fastest for a scene of so many subpatches: tiles, or the BVH if there are too many
 // subpatches per tile of the image or the device lacks the subgroup operations that tiles need; the
 // list where neither is possible. Throws UsageError if what the user asks for is not possible with
 // this back end, solver and number of subpatches; whether the device can do it is not looked at.
@@ -38,9 +38,10 @@ bool needs_bvh(Accel accel, bool shadows);
 Accel accel_at_hand(const AccelRequest& request, const BakedScene& scene);
 
 // The names of the kernels that trace a frame's rays: the first one traces all new rays, the
-// second, if there is one, those that the first left undecided or did not finish. lanes:
-// invocations that each subgroup has for certain. by_address: the scene's buffers are too large to
-// be bound.
-std::vector<const char*> tracing_kernels(Accel accel, uint32_t lanes, bool by_address);
+// second, if there is one, those that the first left undecided or did not finish. subpatches: of
+// the scene. lanes: invocations that each subgroup has for certain. by_address: kernels reach the
+// scene's buffers by their addresses.
+std::vector<const char*> tracing_kernels(Accel accel, std::size_t subpatches, uint32_t lanes,
+                                         bool by_address);
 
 }  // namespace trisect

@@ -58,7 +58,7 @@ SceneBuffers::Needs needs_of(const gpu::Device& device, const KernelChoice& choi
       }
       return {ByAddress::always, bvh};
     case Accel::bvh:
-      return {ByAddress::if_large, bvh};
+      return {device.loads_fast_by_address() ? ByAddress::always : ByAddress::if_large, bvh};
     case Accel::tiles:
       return {device.loads_fast_by_address() ? ByAddress::also : ByAddress::never, bvh};
     default:
@@ -66,11 +66,13 @@ SceneBuffers::Needs needs_of(const gpu::Device& device, const KernelChoice& choi
   }
 }
 
-std::vector<gpu::Kernel> kernels_for(const gpu::Device& device, Accel accel, bool by_address,
+std::vector<gpu::Kernel> kernels_for(const gpu::Device& device, const BakedScene& scene,
+                                     Accel accel, bool by_address,
                                      const std::vector<gpu::Specialization>& constants,
                                      const KernelCode* code) {
   std::vector<gpu::Kernel> kernels;
-  for (const char* name : tracing_kernels(accel, device.subgroups().certain_size(), by_address)) {
+  for (const char* name : tracing_kernels(accel, scene.subpatches.size(),
+                                          device.subgroups().certain_size(), by_address)) {
     kernels.push_back(make_kernel(device, name, constants, code));
   }
   return kernels;
@@ -85,7 +87,7 @@ std::vector<gpu::Kernel> shadow_kernels_for(const gpu::Device& device, const Bak
   std::vector<gpu::Specialization> constants = constants_of(device, scene, choice);
   constants.push_back({CONSTANT_SHADOWS, 1U});
   const Accel accel = choice.accel == Accel::tiles ? Accel::bvh : choice.accel;
-  return kernels_for(device, accel, by_address, constants, code);
+  return kernels_for(device, scene, accel, by_address, constants, code);
 }
 
 }  // namespace
@@ -110,7 +112,7 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
       band_rows_(rows_in_a_band(device.report().name, buffer_limit_, width, height, writes_aovs_)),
       tiles_(lists_for(device, scene, choice, code, width, band_rows_, buffer_limit_)),
       scene_(device, scene, buffer_limit_, needs_of(device, choice)),
-      kernels_(kernels_for(device, choice.accel, scene_.by_address(),
+      kernels_(kernels_for(device, scene, choice.accel, scene_.by_address(),
                            constants_of(device, scene, choice), code)),
       shadow_kernels_(shadow_kernels_for(device, scene, choice, scene_.by_address(), code)),
       commands_(device),

@@ -7,6 +7,7 @@
 namespace trisect {
 
 using glm::uint;
+using glm::uvec2;
 using glm::vec3;
 using glm::vec4;
 

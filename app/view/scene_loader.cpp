@@ -28,7 +28,7 @@ std::variant<ViewedScene, LoadFailure> load(const SceneRequest& request,
     }
     BakedScene scene = bake_with_subpatches(*mesh, request.choice);
     if (request.tree) {
-      std::optional<std::vector<BvhEntry>> bvh;
+      std::optional<std::vector<BvhNode>> bvh;
       if (is_known) bvh = refitted_bvh(scene, *before);
       scene.bvh = bvh ? std::move(*bvh) : build_bvh(scene);
     }

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "app/bake/subpatch_bounds.h"
 #include "app/bake/subpatch_boxes.h"
@@ -20,47 +19,56 @@ BakedScene scene_of(const std::string& asset, const SurfaceChoice& choice) {
   return bake_with_subpatches(test::load_asset(asset), choice);
 }
 
-glm::vec3 lo_of(const BvhEntry& e) {
-  return {e.lo_x, e.lo_y, e.lo_z};
-}
-glm::vec3 hi_of(const BvhEntry& e) {
-  return {e.hi_x, e.hi_y, e.hi_z};
+bool contains(const SubpatchBox& outer, const SubpatchBox& box) {
+  return glm::all(glm::lessThanEqual(outer.lo, box.lo)) &&
+         glm::all(glm::greaterThanEqual(outer.hi, box.hi));
 }
 
-bool contains(const BvhEntry& e, const glm::vec3& lo, const glm::vec3& hi) {
-  return glm::all(glm::lessThanEqual(lo_of(e), lo)) &&
-         glm::all(glm::greaterThanEqual(hi_of(e), hi));
+bool has_child(const BvhNode& node, uint32_t k) {
+  return (node.children >> k & 1U) != 0;
 }
 
-// The leaves of the tree in the order in which a ray that meets every box comes to them. Expects
-// that every entry's box contains those below it.
-std::vector<uint32_t> subpatches_below(const std::vector<BvhEntry>& bvh, const BakedScene& scene) {
+// Whether the boxes of the leaf, which is child k of node n, and of all above it contain this one.
+bool is_contained_in_all(const SubpatchBox& box, const std::vector<BvhNode>& bvh, uint32_t n,
+                         uint32_t k) {
+  uint32_t item = n * BVH_PLACES + k;
+  std::size_t levels = 0;
+  while (item != BVH_END && levels <= BVH_LEVELS) {
+    const BvhNode& node = bvh.at(item / BVH_PLACES);
+    if (!contains(child_box(node, item % BVH_PLACES), box)) return false;
+    item = node.parent;
+    ++levels;
+  }
+  return levels <= BVH_LEVELS;
+}
+
+// The leaves of the tree. Expects that boxes contain what is below them, that every node knows its
+// parent and comes after it, and that there are no other nodes.
+std::vector<uint32_t> subpatches_below(const std::vector<BvhNode>& bvh, const BakedScene& scene) {
   const std::vector<SubpatchBox> boxes = subpatch_boxes(scene);
+  EXPECT_EQ(bvh.at(0).parent, BVH_END);
   std::vector<uint32_t> leaves;
-  std::size_t visited = 0;
-  for (uint32_t item = 0; item != BVH_END && visited <= bvh.size(); ++visited) {
-    const BvhEntry& entry = bvh.at(item);
-    if (entry.link >= BVH_LEAF) {
-      const uint32_t leaf = entry.link - BVH_LEAF;
-      EXPECT_TRUE(contains(entry, boxes.at(leaf).lo, boxes.at(leaf).hi)) << leaf;
-      leaves.push_back(leaf);
-      item = entry.next;
-    } else if (entry.link == BVH_EMPTY) {
-      item = entry.next;
-    } else {
-      for (uint32_t k = 0; k < kChildren; ++k) {
-        const BvhEntry& child = bvh.at(entry.link + k);
-        if (child.link == BVH_EMPTY) continue;
-        EXPECT_TRUE(contains(entry, lo_of(child), hi_of(child)));
+  std::size_t linked = 1;
+  for (uint32_t n = 0; n < bvh.size(); ++n) {
+    for (uint32_t k = 0; k < kChildren; ++k) {
+      if (!has_child(bvh[n], k)) continue;
+      const uint32_t link = bvh[n].links[k];
+      if (link >= BVH_LEAF) {
+        leaves.push_back(link - BVH_LEAF);
+        EXPECT_TRUE(is_contained_in_all(boxes.at(leaves.back()), bvh, n, k)) << leaves.back();
+      } else {
+        EXPECT_EQ(link % BVH_PLACES, 0U);
+        EXPECT_GT(link / BVH_PLACES, n);
+        EXPECT_EQ(bvh.at(link / BVH_PLACES).parent, n * BVH_PLACES + k);
+        ++linked;
       }
-      item = entry.link;
     }
   }
-  EXPECT_EQ(visited, bvh.size());
+  EXPECT_EQ(linked, bvh.size());
   return leaves;
 }
 
-void expect_all_subpatches_once(const std::vector<BvhEntry>& bvh, const BakedScene& scene) {
+void expect_all_subpatches_once(const std::vector<BvhNode>& bvh, const BakedScene& scene) {
   std::vector<uint32_t> leaves = subpatches_below(bvh, scene);
   std::sort(leaves.begin(), leaves.end());
   std::vector<uint32_t> expected;
@@ -81,8 +89,8 @@ TEST(Bvh, HoldsEverySubpatchOnce) {
 TEST(Bvh, HoldsOnePatch) {
   BakedScene scene = scene_of("sphere-20", {SURFACE_FLAT, 0.0, SHELL_NORMAL});
   scene.subpatches.resize(1);
-  const std::vector<BvhEntry> bvh = build_bvh(scene);
-  EXPECT_EQ(bvh.size(), kChildren);
+  const std::vector<BvhNode> bvh = build_bvh(scene);
+  EXPECT_EQ(bvh.size(), 1U);
   expect_all_subpatches_once(bvh, scene);
 }
 
@@ -104,19 +112,32 @@ TEST(Bvh, IsRefittedToAnotherSurface) {
     const auto bvh = refitted_bvh(scene, first);
     ASSERT_TRUE(bvh.has_value());
     expect_all_subpatches_once(*bvh, scene);
-    // The boxes of the root's children together are no larger than in a tree built anew.
-    const std::vector<BvhEntry> built = build_bvh(scene);
-    const auto all_of = [](const std::vector<BvhEntry>& tree) {
-      glm::vec3 lo(1e30F);
-      glm::vec3 hi(-1e30F);
-      for (uint32_t k = 0; k < kChildren; ++k) {
-        if (tree[k].link == BVH_EMPTY) continue;
-        lo = glm::min(lo, lo_of(tree[k]));
-        hi = glm::max(hi, hi_of(tree[k]));
-      }
-      return std::pair(lo, hi);
-    };
-    EXPECT_EQ(all_of(*bvh), all_of(built));
+    // The root is no larger than that of a tree built anew.
+    const BvhNode built = build_bvh(scene).at(0);
+    EXPECT_EQ(bvh->at(0).origin_x, built.origin_x);
+    EXPECT_EQ(bvh->at(0).step_x, built.step_x);
+    EXPECT_EQ(bvh->at(0).origin_y, built.origin_y);
+    EXPECT_EQ(bvh->at(0).step_y, built.step_y);
+    EXPECT_EQ(bvh->at(0).origin_z, built.origin_z);
+    EXPECT_EQ(bvh->at(0).step_z, built.step_z);
+  }
+}
+
+// A box on a grid is larger than the box itself by at most a plane's distance on each side.
+TEST(Bvh, HasTightBoxes) {
+  const BakedScene scene = scene_of("torus", {SURFACE_PHONG, 0.65, SHELL_NORMAL});
+  const std::vector<SubpatchBox> boxes = subpatch_boxes(scene);
+  for (const BvhNode& node : build_bvh(scene)) {
+    const glm::vec3 plane(node.step_x, node.step_y, node.step_z);
+    // Beside the rounding of the planes themselves, of numbers up to the torus's size, 1.
+    const glm::vec3 most = plane + glm::vec3(1e-6F);
+    for (uint32_t k = 0; k < kChildren; ++k) {
+      if (!has_child(node, k) || node.links[k] < BVH_LEAF) continue;
+      const SubpatchBox& box = boxes.at(node.links[k] - BVH_LEAF);
+      const SubpatchBox on_grid = child_box(node, k);
+      EXPECT_TRUE(glm::all(glm::lessThanEqual(box.lo - on_grid.lo, most)));
+      EXPECT_TRUE(glm::all(glm::lessThanEqual(on_grid.hi - box.hi, most)));
+    }
   }
 }
 
@@ -157,15 +178,17 @@ TEST(Bvh, BoxesContainTheSurface) {
 // Along the diagonal of the octants the first child is the nearest and the last one the farthest.
 TEST(Bvh, PutsChildrenInTheOrderOfOctants) {
   const BakedScene scene = scene_of("sphere-320", {SURFACE_PHONG, 0.65, SHELL_NORMAL});
-  const std::vector<BvhEntry> bvh = build_bvh(scene);
+  const std::vector<BvhNode> bvh = build_bvh(scene);
+  const BvhNode& root = bvh.at(0);
   const auto along = [&](uint32_t k) {
-    const glm::vec3 middle = lo_of(bvh[k]) + hi_of(bvh[k]);
+    const SubpatchBox box = child_box(root, k);
+    const glm::vec3 middle = box.lo + box.hi;
     return middle.x + middle.y + middle.z;
   };
-  ASSERT_NE(bvh[0].link, BVH_EMPTY);
-  ASSERT_NE(bvh[kChildren - 1].link, BVH_EMPTY);
+  ASSERT_TRUE(has_child(root, 0));
+  ASSERT_TRUE(has_child(root, kChildren - 1));
   for (uint32_t k = 1; k + 1 < kChildren; ++k) {
-    if (bvh[k].link == BVH_EMPTY) continue;
+    if (!has_child(root, k)) continue;
     EXPECT_LT(along(0), along(k));
     EXPECT_LT(along(k), along(kChildren - 1));
   }

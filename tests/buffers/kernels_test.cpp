@@ -28,7 +28,7 @@ TEST(Kernels, OfFramesAreThoseThatTheTracerAsksFor) {
   for (const Accel accel : {Accel::list, Accel::tiles, Accel::bvh, Accel::rayquery}) {
     for (const uint32_t subgroup_size : {0U, 4U, 8U, 32U}) {
       for (const bool by_address : {false, true}) {
-        for (const char* name : tracing_kernels(accel, subgroup_size, by_address)) {
+        for (const char* name : tracing_kernels(accel, 1, subgroup_size, by_address)) {
           asked.insert(name);
         }
       }

@@ -111,17 +111,19 @@ TEST(Layout, ProjectedSubpatch) {
                                    {"sizes", offsetof(ProjectedSubpatch, sizes)}}));
 }
 
-TEST(Layout, BvhEntry) {
+TEST(Layout, BvhNode) {
   const Held held = bound_to(BINDING_BVH, spirv_of("trace_bvh"));
-  EXPECT_EQ(held.stride, sizeof(BvhEntry));
-  EXPECT_EQ(held.offsets, (Offsets{{"lo_x", offsetof(BvhEntry, lo_x)},
-                                   {"lo_y", offsetof(BvhEntry, lo_y)},
-                                   {"lo_z", offsetof(BvhEntry, lo_z)},
-                                   {"link", offsetof(BvhEntry, link)},
-                                   {"hi_x", offsetof(BvhEntry, hi_x)},
-                                   {"hi_y", offsetof(BvhEntry, hi_y)},
-                                   {"hi_z", offsetof(BvhEntry, hi_z)},
-                                   {"next", offsetof(BvhEntry, next)}}));
+  EXPECT_EQ(held.stride, sizeof(BvhNode));
+  EXPECT_EQ(held.offsets, (Offsets{{"origin_x", offsetof(BvhNode, origin_x)},
+                                   {"origin_y", offsetof(BvhNode, origin_y)},
+                                   {"origin_z", offsetof(BvhNode, origin_z)},
+                                   {"parent", offsetof(BvhNode, parent)},
+                                   {"step_x", offsetof(BvhNode, step_x)},
+                                   {"step_y", offsetof(BvhNode, step_y)},
+                                   {"step_z", offsetof(BvhNode, step_z)},
+                                   {"children", offsetof(BvhNode, children)},
+                                   {"boxes", offsetof(BvhNode, boxes)},
+                                   {"links", offsetof(BvhNode, links)}}));
 }
 
 TEST(Layout, Addresses) {
@@ -167,7 +169,8 @@ TEST(Layout, TraceParams) {
 TEST(Layout, BytesAreThoseOfTheStructures) {
   EXPECT_EQ(sizeof(Triangle), TRIANGLE_BYTES);
   EXPECT_EQ(sizeof(SubpatchBounds), SUBPATCH_BYTES);
-  EXPECT_EQ(sizeof(BvhEntry), BVH_ENTRY_BYTES);
+  EXPECT_EQ(offsetof(BvhNode, links), BVH_TEST_BYTES);
+  EXPECT_EQ(sizeof(BvhNode::links[0]), BVH_LINK_BYTES);
   EXPECT_EQ(sizeof(SubpatchBounds::ball), BALL_BYTES);
   EXPECT_EQ(sizeof(Triangle::Domain), BALL_BYTES);
 }

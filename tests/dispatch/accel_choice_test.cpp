@@ -1,6 +1,8 @@
 // Which acceleration the program takes where the user leaves it open, and what it refuses.
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "app/base/error.h"
 #include "app/dispatch/accel.h"
 
@@ -22,10 +24,21 @@ TEST(ChosenAccel, IsTilesOrTheTreeByTheNumberOfSubpatches) {
 TEST(ChosenAccel, IsTheTreeOnADeviceWithoutSubgroupOperations) {
   EXPECT_EQ(chosen({.subgroups = false}, 1), Accel::bvh);
   EXPECT_EQ(chosen({.subgroups = false}, kMost + 1), Accel::bvh);
-  // Rays go down the tree one by one there, by a kernel that needs no subgroups.
-  EXPECT_EQ(tracing_kernels(Accel::bvh, 0, false), (std::vector<const char*>{"trace_bvh"}));
   // The user's own choice stays, for the tracer to refuse.
   EXPECT_EQ(chosen({.accel = Accel::tiles, .subgroups = false}, 1), Accel::tiles);
+}
+
+// Packets are for subgroups of about as many lanes as a node has children, and for scenes of which
+// neighbouring rays meet the same subpatches.
+TEST(TracingKernels, GoDownTheTreeInPacketsWhereThatPays) {
+  const auto first = [](std::size_t subpatches, uint32_t lanes) {
+    return std::string(tracing_kernels(Accel::bvh, subpatches, lanes, false).front());
+  };
+  for (const uint32_t lanes : {8U, 16U}) {
+    EXPECT_EQ(first(150'000, lanes), "trace_packets");
+    EXPECT_EQ(first(150'001, lanes), "trace_rays");
+  }
+  for (const uint32_t lanes : {0U, 4U, 32U, 64U}) EXPECT_EQ(first(1, lanes), "trace_rays");
 }
 
 TEST(ChosenAccel, IsTheListForTheBisectionAndOtherBackEnds) {
@@ -42,7 +55,7 @@ TEST(AccelAtHand, IsTheListUntilTheTreeIsThere) {
   scene.subpatches.resize(1);
   EXPECT_EQ(accel_at_hand({}, scene), Accel::tiles);
   EXPECT_EQ(accel_at_hand({.subgroups = false}, scene), Accel::list);
-  scene.bvh.resize(8);
+  scene.bvh.resize(1);
   EXPECT_EQ(accel_at_hand({.subgroups = false}, scene), Accel::bvh);
 }
 

@@ -179,7 +179,7 @@ TEST_F(Acceleration, RayQueriesAreThereOrRefused) {
     // The bytes of the acceleration structure count; each of its boxes takes 24 bytes.
     EXPECT_GT(tracer.scene_bytes(), scene.triangles.size() * sizeof(Triangle) +
                                         scene.subpatches.size() * (sizeof(SubpatchBounds) + 24) +
-                                        scene.bvh.size() * sizeof(BvhEntry));
+                                        scene.bvh.size() * sizeof(BvhNode));
   } else {
     EXPECT_THROW(VulkanTracer(test::validated_device(), scene, 8, 8, choice), gpu::Error);
   }
@@ -203,6 +203,10 @@ TEST_F(Acceleration, WorksWithSubgroupsOfAnySize) {
     const std::string what = "subgroups of " + std::to_string(size);
     tried += " " + std::to_string(size);
     expect_equal(list, trace(scene, settings, Accel::bvh, kNoLimit, device), what + ", bvh");
+    if (device.has_addresses()) {
+      const std::size_t limit = scene.triangles.size() * sizeof(Triangle) - 1;
+      expect_equal(list, trace(scene, settings, Accel::bvh, limit, device), what + ", addresses");
+    }
     if (size == 0) {
       EXPECT_THROW(trace(scene, settings, Accel::tiles, kNoLimit, device), gpu::Error);
     } else {
@@ -245,7 +249,7 @@ TEST_F(Acceleration, UploadsTheTreeOnlyWhereItIsNeeded) {
       bake_with_subpatches(test::load_asset("sphere-80"), {SURFACE_PHONG, 0.65, SHELL_NORMAL});
   BakedScene with = without;
   with.bvh = build_bvh(with);
-  const std::size_t tree_bytes = with.bvh.size() * sizeof(BvhEntry);
+  const std::size_t tree_bytes = with.bvh.size() * sizeof(BvhNode);
   const auto bytes = [](const BakedScene& scene, Accel accel, bool shadows) {
     const KernelChoice choice{.solver = SOLVER_ROBUST, .accel = accel, .shadows = shadows};
     return VulkanTracer(test::validated_device(), scene, 8, 8, choice).scene_bytes();
@@ -255,9 +259,9 @@ TEST_F(Acceleration, UploadsTheTreeOnlyWhereItIsNeeded) {
   const std::size_t tiles_bytes = bytes(without, Accel::tiles, false);
   EXPECT_EQ(bytes(with, Accel::tiles, false), tiles_bytes);
   // Without the tree its binding has one entry.
-  EXPECT_EQ(bytes(with, Accel::tiles, true), tiles_bytes - sizeof(BvhEntry) + tree_bytes);
+  EXPECT_EQ(bytes(with, Accel::tiles, true), tiles_bytes - sizeof(BvhNode) + tree_bytes);
   EXPECT_EQ(bytes(with, Accel::bvh, false),
-            bytes(without, Accel::list, false) - sizeof(BvhEntry) + tree_bytes);
+            bytes(without, Accel::list, false) - sizeof(BvhNode) + tree_bytes);
 }
 
 // With a limit that is less than the model's buffers take, they cannot be bound.

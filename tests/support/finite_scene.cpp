@@ -37,9 +37,9 @@ bool is_usable(const SubpatchBounds& bounds) {
          bounds.ball.w >= 0.0F;
 }
 
-bool is_usable(const BvhEntry& entry) {
-  return all_finite(
-      {{entry.lo_x, entry.lo_y, entry.lo_z, 0.0F}, {entry.hi_x, entry.hi_y, entry.hi_z, 0.0F}});
+bool is_usable(const BvhNode& node) {
+  return all_finite({{node.origin_x, node.origin_y, node.origin_z, 0.0F},
+                     {node.step_x, node.step_y, node.step_z, 0.0F}});
 }
 
 template <typename Item>
@@ -59,7 +59,7 @@ std::string first_not_finite(const BakedScene& scene) {
   }
   for (const std::string& found :
        {first_unusable("triangle", scene.triangles), first_unusable("subpatch", scene.subpatches),
-        first_unusable("entry of the tree", scene.bvh)}) {
+        first_unusable("node of the tree", scene.bvh)}) {
     if (!found.empty()) return found;
   }
   return "";

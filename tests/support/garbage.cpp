@@ -111,9 +111,9 @@ void spoil(Garbage garbage, std::mt19937& random, BakedScene& scene) {
     }
   }
   if (!is(Garbage::tree)) return;
-  for (BvhEntry& entry : scene.bvh) {
-    for (float* number :
-         {&entry.lo_x, &entry.lo_y, &entry.lo_z, &entry.hi_x, &entry.hi_y, &entry.hi_z}) {
+  for (BvhNode& node : scene.bvh) {
+    for (float* number : {&node.origin_x, &node.origin_y, &node.origin_z, &node.step_x,
+                          &node.step_y, &node.step_z}) {
       spoil(random, *number);
     }
   }

@@ -53,9 +53,9 @@ KernelChoice with_shadows(Accel accel) {
   return {SOLVER_ROBUST, true, true, accel, true};
 }
 
-Frame trace(const Lit& lit, const KernelChoice& choice, std::size_t buffer_limit = kNoLimit) {
-  VulkanTracer tracer(test::validated_device(), lit.scene, lit.params.width, lit.params.height,
-                      choice, buffer_limit);
+Frame trace(const Lit& lit, const KernelChoice& choice, std::size_t buffer_limit = kNoLimit,
+            const gpu::Device& device = test::validated_device()) {
+  VulkanTracer tracer(device, lit.scene, lit.params.width, lit.params.height, choice, buffer_limit);
   Frame frame;
   tracer.render(lit.params, frame);
   return frame;
@@ -86,6 +86,7 @@ bool same_colors(const Frame& a, const Frame& b) {
 }
 
 TEST_F(Shadows, AreThoseOfTheListByEveryWay) {
+  const gpu::Device no_packets(test::validated_instance(), "", VK_NULL_HANDLE, 0);
   const std::pair<const char*, SurfaceChoice> scenes[] = {
       {"torus", kPhong}, {"relief", kPhong}, {"sphere-20", kFlat}, {"sphere-20", kSphere}};
   for (const auto& [name, choice] : scenes) {
@@ -95,6 +96,8 @@ TEST_F(Shadows, AreThoseOfTheListByEveryWay) {
     EXPECT_GT(count_dark(list), 50U) << what;
     EXPECT_TRUE(same_colors(list, trace(lit, with_shadows(Accel::tiles)))) << what;
     EXPECT_TRUE(same_colors(list, trace(lit, with_shadows(Accel::bvh)))) << what;
+    EXPECT_TRUE(same_colors(list, trace(lit, with_shadows(Accel::bvh), kNoLimit, no_packets)))
+        << what;
     Frame cpu;
     trace_on_cpu(lit.scene, lit.params, with_shadows(Accel::list), cpu);
     EXPECT_EQ(count_different(cpu, list), 0U) << what;

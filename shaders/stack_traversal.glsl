@@ -1,0 +1,78 @@
+// Traversal of the scene's BVH by one ray with a stack, which spares it the returns to parents of bvh_candidates.glsl. A
+// traversal cannot pause: where it takes too long it gives up.
+
+// The nodes above the current one that have children to visit: a node's number times 256, plus bit k if the child at place k
+// is to be visited. Without an array, which drivers would index by branches.
+struct NodeStack {
+  uvec4 top;  // the last one pushed comes first
+  uvec4 below;
+  uint height;
+};
+const uint STACK_ENTRIES = 8u;
+
+void push_node(uint node, uint to_visit, inout NodeStack stack) {
+  stack.below = uvec4(stack.top.w, stack.below.xyz);
+  stack.top = uvec4(node << 8 | to_visit, stack.top.xyz);
+  ++stack.height;
+}
+
+void pop_node(out uint node, out uint to_visit, inout NodeStack stack) {
+  node = stack.top.x >> 8;
+  to_visit = stack.top.x & 255u;
+  stack.top = uvec4(stack.top.yzw, stack.below.x);
+  stack.below = uvec4(stack.below.yzw, 0u);
+  --stack.height;
+}
+
+struct StackTraversal {
+  BoxRay ray;
+  uint node;      // the current node's number
+  uint to_visit;  // bit k: its child at place k is met and not yet visited
+  NodeStack stack;
+  bool has_given_up;  // no steps are left, or the stack is too low
+};
+
+// At the root. end: the greatest distance along the ray.
+StackTraversal begin_stack_traversal(PixelRay ray, float end) {
+  StackTraversal at;
+  at.ray = box_ray(ray);
+  at.node = 0u;
+  at.to_visit = places_met(at.ray, 0u, end);
+  at.stack.top = uvec4(0u);
+  at.stack.below = uvec4(0u);
+  at.stack.height = 0u;
+  at.has_given_up = false;
+  return at;
+}
+
+// The next subpatch whose box the ray meets before the distance `end`; NO_TRIANGLE if there is none. If it has given up there
+// may be others.
+uint next_candidate(float end, inout StackTraversal at, inout Traversal traversal) {
+  uint subpatch = NO_TRIANGLE;
+  bool ended = at.has_given_up;
+  while (subpatch == NO_TRIANGLE && !ended) {
+    if (at.to_visit == 0u) {
+      ended = at.stack.height == 0u;
+      pop_node(at.node, at.to_visit, at.stack);
+    }
+    if (!ended) {
+      uint place = uint(findLSB(at.to_visit));
+      at.to_visit &= at.to_visit - 1u;
+      uint link = bvh[at.node].links[place ^ at.ray.octant];
+      if (COUNTS) traversal.counts.bytes += BVH_LINK_BYTES;
+      if (link >= BVH_LEAF) {
+        subpatch = link - BVH_LEAF;
+      } else {
+        if (at.to_visit != 0u) push_node(at.node, at.to_visit, at.stack);
+        at.node = link / BVH_PLACES;
+        at.to_visit = places_met(at.ray, at.node, end);
+        if (COUNTS) traversal.counts.bytes += BVH_TEST_BYTES;
+      }
+      --traversal.steps;
+      at.has_given_up = traversal.steps <= 0 || at.stack.height > STACK_ENTRIES;
+      ended = at.has_given_up;
+    }
+  }
+  traversal.steps -= VISIT_STEPS;
+  return subpatch;
+}
