@@ -2,18 +2,18 @@
 
 void main() {
   uint index = gl_GlobalInvocationID.x;
-  Traversal traversal = begin_traversal(int(push.queue.steps));
-  if (push.queue.pass == 0u) {
+  Traversal traversal = begin_traversal(int(state.now.steps));
+  if (state.now.pass == 0u) {
     index += push.first;
     if (index >= push.end) return;
   } else {
-    if (index >= push.queue.resumed) return;
-    uint place = push.queue.from + index;
+    if (index >= state.now.resumed) return;
+    uint place = state.now.from + index;
     traversal = resumed_traversal(place, traversal.steps);
     index = paused[place].ray;
   }
   PixelRay ray = ray_of_cast(rays[index]);
-  resume(ray, push.queue.pass, traversal);
+  resume(ray, state.now.pass, traversal);
   if (is_finished(ray, traversal)) {
     hits[index] = cast_result(ray, traversal);
   } else {

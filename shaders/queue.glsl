@@ -1,5 +1,5 @@
-// The queue of rays that paused: their traversals are stored in it and resumed by the next submit. It has two halves, of
-// which one is read while the other is filled (app/dispatch/ray_queue.h).
+// The queue of rays that paused: their traversals are stored in it and resumed by the next pass. It has two halves, of which
+// one is read while the other is filled (app/dispatch/ray_queue.h).
 
 layout(std430, binding = BINDING_QUEUE) restrict buffer QueueBlock { PausedRay paused[]; };
 layout(std430, binding = BINDING_QUEUED) restrict buffer QueuedBlock { QueueState state; };
@@ -35,7 +35,7 @@ void pause(uint place, uint ray, Traversal traversal) {
 }
 
 // The next place of the half that is being filled.
-uint next_place() { return push.queue.to + atomicAdd(state.queued, 1u); }
+uint next_place() { return state.now.to + atomicAdd(state.queued, 1u); }
 
 // Stores a traversal there.
 void enqueue(uint ray, Traversal traversal) { pause(next_place(), ray, traversal); }

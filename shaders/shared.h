@@ -146,7 +146,7 @@ struct TraceParams {
 // through all candidates again.
 const uint MOST_PENDING = 8u;
 
-// A ray whose traversal pauses after a number of steps, to go on in the next submit. No submit may
+// A ray whose traversal pauses after a number of steps, to go on in the next pass. No dispatch may
 // take too long, or the driver takes the device for lost, and llvmpipe ends all loops of a subgroup
 // after 65535 iterations without an error.
 struct PausedRay {
@@ -163,12 +163,28 @@ struct PausedRay {
   uint pending[MOST_PENDING];  // the last one comes first
 };
 
-// The counters of a submit, for the host to read.
+// Which rays a pass traces: new ones, or paused ones that go on.
+struct QueuePass {
+  uint pass;     // number of earlier passes of the same rays; from 1 on the rays are from the queue
+  uint steps;    // after which a ray pauses
+  uint resumed;  // number of rays that go on
+  uint from;     // queue index of the first of them
+  uint to;       // queue index for the first ray that pauses
+};
+
+// The state of the queue. A frame goes on by it without the host: begin_part.comp and
+// next_pass.comp make of it the next pass, and the workgroups of the next dispatch.
 struct QueueState {
-  uint queued;     // rays that paused
+  QueuePass now;
+  uint queued;     // rays that have paused in this pass
   uint bytes_low;  // bytes of the scene that rays have read, low and high half, if work is counted
   uint bytes_high;
-  uint padding;
+  uint all_queued;  // rays that have paused in all passes
+  uint begun;       // parts of the submit that have begun
+  uint is_held;     // 1: no other part begins, as rays are left or the tiles' lists do not fit
+  uint groups_x;    // of the next dispatch
+  uint groups_y;
+  uint groups_z;
 };
 
 // Sizes of what rays read of the scene, for counting bytes.
@@ -179,22 +195,18 @@ const uint BALL_BYTES = 16u;  // Triangle::Domain or SubpatchBounds::ball
 const uint BVH_TEST_BYTES = 96u;
 const uint BVH_LINK_BYTES = 4u;
 
-// Which paused rays a submit goes on with.
-struct QueuePush {
-  uint pass;   // number of earlier submits of the same rays; from 1 on the rays are from the queue
-  uint steps;  // after which a ray pauses
-  uint resumed;  // number of rays that go on
-  uint from;     // queue index of the first of them
-  uint to;       // queue index for the first ray that pauses
-};
-
-// What one submit of an image's rays covers: workgroups (tiles) first_group, first_group + 1, ...
-// in raster order. The output buffers hold `rows` rows of the image from first_row on.
+// A part of an image's rays: workgroups (tiles) first_group, first_group + 1, ... in raster order.
+// The output buffers hold `rows` rows of the image from first_row on.
 struct TilePush {
-  QueuePush queue;
   uint first_group;
   uint first_row;
   uint rows;
+  // For begin_part.comp alone.
+  uint groups;      // of the part
+  uint listed;      // 1: they are numbers of tiles with a list, of which there may be fewer
+  uint must_fit;    // 1: it does not begin if the tiles' lists do not fit into their buffer
+  uint steps;       // after which a ray pauses
+  uint half_queue;  // rays that a half of the queue holds
 };
 
 // How a window shows a frame. Where sizes differ, a pixel of the window has the mean of the frame's
@@ -238,9 +250,8 @@ struct CastHit {
   uint padding1;
 };
 
-// Which rays of a buffer a submit of new rays covers.
+// Which rays of a buffer are cast.
 struct CastPush {
-  QueuePush queue;
   uint first;
   uint end;
 };

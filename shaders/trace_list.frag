@@ -23,20 +23,20 @@ void main() {
   // OpenGL draws without workgroups: first_group is the band's lowest row, counted from the bottom of the image.
   uvec2 pixel = fragment_pixel(push.first_group);
   uint index = (pixel.y - push.first_row) * params.width + pixel.x;
-  precise Traversal traversal = begin_traversal(int(push.queue.steps));
-  if (push.queue.pass > 0u) {
+  precise Traversal traversal = begin_traversal(int(state.now.steps));
+  if (state.now.pass > 0u) {
     if (paused[index].path == NOT_PAUSED) discard;
     traversal = resumed_traversal(index, traversal.steps);
   }
   precise PixelRay ray = ray_through(to_near, across);
-  resume(ray, push.queue.pass, traversal);
+  resume(ray, state.now.pass, traversal);
   count_bytes(traversal);
   if (!is_finished(ray, traversal)) {
     pause(index, index, traversal);
     atomicAdd(state.queued, 1u);
     discard;
   }
-  if (push.queue.pass > 0u) paused[index].path = NOT_PAUSED;
+  if (state.now.pass > 0u) paused[index].path = NOT_PAUSED;
   precise vec4 color;
   precise PixelAovs aovs;
   finish_pixel(ray, traversal, color, aovs);

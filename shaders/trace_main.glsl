@@ -14,23 +14,23 @@ uvec2 new_pixel() {
 }
 
 void main() {
-  precise Traversal traversal = begin_traversal(int(push.queue.steps));
+  precise Traversal traversal = begin_traversal(int(state.now.steps));
   uvec2 pixel;
-  if (push.queue.pass == 0u) {
+  if (state.now.pass == 0u) {
     pixel = new_pixel();
     if (pixel.x >= params.width || pixel.y >= params.height) return;
     traversal = begin_pixel_traversal(pixel, traversal.steps);
   } else {
     uint invocation = gl_WorkGroupID.x * TILE_SIZE * TILE_SIZE + gl_LocalInvocationIndex;
-    if (invocation >= push.queue.resumed) return;
-    uint place = push.queue.from + invocation;
+    if (invocation >= state.now.resumed) return;
+    uint place = state.now.from + invocation;
     traversal = resumed_traversal(place, traversal.steps);
     uint index = paused[place].ray;
     pixel = uvec2(index % params.width, index / params.width);
   }
   precise PixelRay ray = ray_of(pixel);
   ray.tile = tile_of(pixel);
-  resume(ray, push.queue.pass, traversal);
+  resume(ray, state.now.pass, traversal);
   count_bytes(traversal);
   if (!is_finished(ray, traversal)) {
     enqueue(pixel.y * params.width + pixel.x, traversal);

@@ -17,9 +17,9 @@ layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 
 void main() {
   uint invocation = gl_WorkGroupID.x * TILE_SIZE * TILE_SIZE + gl_LocalInvocationIndex;
-  if (invocation >= push.queue.resumed) return;
-  uint place = push.queue.from + invocation;
-  precise Traversal traversal = resumed_traversal(place, int(push.queue.steps));
+  if (invocation >= state.now.resumed) return;
+  uint place = state.now.from + invocation;
+  precise Traversal traversal = resumed_traversal(place, int(state.now.steps));
   uint index = paused[place].ray;
   uvec2 pixel = uvec2(index % params.width, index / params.width);
   precise PixelRay ray = ray_of(pixel);

@@ -68,7 +68,7 @@ void main() {
   uvec2 pixel = uvec2(tile % columns, tile / columns) * TILE_SIZE + pixel_in_tile(gl_LocalInvocationIndex);
   if (pixel.x >= params.width || pixel.y >= params.height) return;
   precise PixelRay ray = ray_of(pixel);
-  precise Traversal traversal = begin_pixel_traversal(pixel, int(push.queue.steps));
+  precise Traversal traversal = begin_pixel_traversal(pixel, int(state.now.steps));
   bool finished = traversal.hit.z == TRAVERSAL_ENDED || traverse_query(ray, traversal);
   count_bytes(traversal);
   if (!finished) {

@@ -19,9 +19,10 @@ enum class Memory {
 // The device must outlive it, and work that uses it must be finished before it is destroyed.
 class Buffer {
  public:
-  // size: in bytes, more than 0; the content is undefined at first. It can be used as storage and
-  // uniform buffer and for transfers; an addressed one also for acceleration structures, if the
-  // device has ray queries. name: for messages. Throws Error if there is no memory.
+  // size: in bytes, more than 0; the content is undefined at first. It can be used as storage,
+  // uniform and indirect buffer and for transfers; an addressed one also for acceleration
+  // structures, if the device has ray queries. name: for messages. Throws Error if there is no
+  // memory.
   Buffer(const Device& device, std::size_t size, Memory memory, const std::string& name);
 
   [[nodiscard]] VkBuffer get() const { return buffer_.get(); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "vk/buffer.h"
@@ -26,12 +27,21 @@ class Commands {
   void dispatch(const Kernel& kernel, const DescriptorSet& descriptors,
                 std::span<const std::byte> push, uint32_t groups_x, uint32_t groups_y = 1);
 
+  // The same with the VkDispatchIndirectCommand at this offset in a buffer, in bytes, a multiple of
+  // 4, as it is when the command is executed.
+  void dispatch_indirect(const Kernel& kernel, const DescriptorSet& descriptors,
+                         std::span<const std::byte> push, const Buffer& groups, std::size_t offset);
+
   // Builds an acceleration structure of one geometry. The device must have ray queries.
   void build(const VkAccelerationStructureBuildGeometryInfoKHR& info,
              const VkAccelerationStructureBuildRangeInfoKHR& range);
 
   // Sets all bytes of a buffer to 0.
   void clear(const Buffer& buffer);
+
+  // Sets the bytes of a buffer from `offset` on; at most 65536, their number and the offset
+  // multiples of 4. They are taken now.
+  void update(const Buffer& buffer, std::size_t offset, std::span<const std::byte> bytes);
 
   // Copies `size` bytes from one buffer to another, at these offsets in bytes.
   void copy(const Buffer& from, std::size_t from_offset, const Buffer& to, std::size_t to_offset,
@@ -42,14 +52,30 @@ class Commands {
   // the host's clock.
   double submit_and_wait();
 
+  // How many submits there were.
+  [[nodiscard]] uint64_t submits() const { return submits_; }
+
+  // Begins what ms_since_mark() measures.
+  void mark();
+
+  // Of the last submit, the time in milliseconds between the mark and the end; of the whole submit
+  // if it has no mark or the queue no timestamps.
+  [[nodiscard]] double ms_since_mark() const { return ms_since_mark_; }
+
  private:
-  // Records a barrier: what compute shaders and transfers wrote so far is visible to later ones.
+  void bind(const Kernel& kernel, const DescriptorSet& descriptors,
+            std::span<const std::byte> push);
+  // Records a barrier: what compute shaders and transfers wrote so far is visible to later ones
+  // and to indirect dispatches.
   void order_after_writes();
 
   const Device* device_;
   CommandBuffer commands_;
   Owned<VkFence, vkDestroyFence> fence_;
-  Owned<VkQueryPool, vkDestroyQueryPool> queries_;
+  Owned<VkQueryPool, vkDestroyQueryPool> queries_;  // the begin, the end and the mark
+  uint64_t submits_ = 0;
+  bool has_mark_ = false;
+  double ms_since_mark_ = 0.0;
 };
 
 // A buffer in host memory by which bytes are copied to device memory and back, in pieces if they

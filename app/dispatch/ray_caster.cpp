@@ -58,10 +58,9 @@ std::vector<CastHit> RayCaster::cast(std::span<const CastRay> rays) {
     for (std::size_t done = 0; done < count;) {
       const auto groups = static_cast<uint32_t>(
           std::min<std::size_t>(budget.groups(), (count - done + CAST_SIZE - 1) / CAST_SIZE));
-      const CastPush push{{}, static_cast<uint>(done), static_cast<uint>(count)};
-      // Without a KeepGoing the run is never stopped, so there is a time.
-      budget.record(groups, *queue_.run(commands_, {kernel_.get(), 1}, descriptors_, push, groups,
-                                        CAST_SIZE));
+      const CastPush push{static_cast<uint>(done), static_cast<uint>(count)};
+      budget.record(groups, queue_.run(commands_, *kernel_, descriptors_,
+                                       std::as_bytes(std::span(&push, 1)), groups, CAST_SIZE));
       done += std::size_t{groups} * CAST_SIZE;
     }
     staging_.download(commands_, hits_,

@@ -46,35 +46,33 @@ TileLists::TileLists(const gpu::Device& device, const std::vector<gpu::Specializ
                  device.loads_fast_by_address() ? gpu::Memory::addressed : gpu::Memory::device,
                  "projected subpatches"),
       tiles_(device, width, band_rows),
-      totals_(device, sizeof(TileTotals), gpu::Memory::host, "totals of the tiles' lists") {}
+      totals_(device, sizeof(TileTotals), gpu::Memory::device, "totals of the tiles' lists"),
+      counted_(device, sizeof(TileTotals), gpu::Memory::host, "copy of the totals") {}
 
 void TileLists::resize(const gpu::Device& device, uint32_t width, uint32_t band_rows) {
   tiles_ = Tiles(device, width, band_rows);
 }
 
-double TileLists::project(gpu::Commands& commands, const gpu::DescriptorSet& descriptors) {
-  commands.begin();
+void TileLists::project(gpu::Commands& commands, const gpu::DescriptorSet& descriptors) const {
   commands.dispatch(project_kernel_, descriptors, bytes_of({}), groups_);
-  return commands.submit_and_wait();
 }
 
-double TileLists::bin(gpu::Commands& commands, const gpu::DescriptorSet& descriptors,
-                      uint32_t width, uint32_t first_row, uint32_t rows) {
+void TileLists::bin(gpu::Commands& commands, const gpu::DescriptorSet& descriptors, uint32_t width,
+                    uint32_t first_row, uint32_t rows) const {
   const uint32_t row_groups = (tiles_across(rows) + BIN_ROWS - 1) / BIN_ROWS;
-  const TilePush push{{}, 0, first_row, rows};
-  commands.begin();
+  const TilePush push{.first_row = first_row, .rows = rows};
   commands.clear(tiles_.lists);
   commands.clear(totals_);
   commands.dispatch(count_kernel_, descriptors, bytes_of(push), groups_, row_groups);
   commands.dispatch(sky_kernel_, descriptors, bytes_of(push), tiles_across(width),
                     tiles_across(rows));
   commands.dispatch(fill_kernel_, descriptors, bytes_of(push), groups_, row_groups);
-  return commands.submit_and_wait();
+  commands.copy(totals_, 0, counted_, 0, sizeof(TileTotals));
 }
 
 TileTotals TileLists::counted() const {
   TileTotals totals{};
-  std::memcpy(&totals, totals_.bytes().data(), sizeof(totals));
+  std::memcpy(&totals, counted_.bytes().data(), sizeof(totals));
   return totals;
 }
 

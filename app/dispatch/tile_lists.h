@@ -40,29 +40,34 @@ class TileLists {
   // Bytes of device memory of all of them.
   [[nodiscard]] std::size_t bytes() const {
     return projected_.size() + tiles_.lists.size() + tiles_.subpatches.size() +
-           tiles_.order.size() + totals_.size();
+           tiles_.order.size() + totals_.size() + counted_.size();
   }
 
-  // Projects all subpatches for the camera in the bound TraceParams. Returns milliseconds on the
-  // device. descriptors: a set of frame_interface() in which the buffers above are bound.
-  double project(gpu::Commands& commands, const gpu::DescriptorSet& descriptors);
+  // Records: projects all subpatches for the camera in the bound TraceParams. descriptors: a set of
+  // frame_interface() in which the buffers above are bound.
+  void project(gpu::Commands& commands, const gpu::DescriptorSet& descriptors) const;
 
-  // Makes the lists of the band of `rows` rows from first_row on, and fills in the sky where a list
-  // is empty. width: of the image in pixels, at most that of the constructor or of resize().
-  // Returns milliseconds on the device.
-  double bin(gpu::Commands& commands, const gpu::DescriptorSet& descriptors, uint32_t width,
-             uint32_t first_row, uint32_t rows);
+  // Records: makes the lists of the band of `rows` rows from first_row on, and fills in the sky
+  // where a list is empty. width: of the image in pixels, at most that of the constructor or of
+  // resize().
+  void bin(gpu::Commands& commands, const gpu::DescriptorSet& descriptors, uint32_t width,
+           uint32_t first_row, uint32_t rows) const;
 
-  // The number of tiles of that band whose lists are not empty.
+  // The number of tiles whose lists are not empty, in the band of the last submit with bin().
   [[nodiscard]] uint32_t tiles_seen() const { return counted().tiles; }
 
-  // If lists of that band were left out for lack of room: makes room for them, with another buffer
-  // for subpatches(), and returns true. Throws DeviceError if there is no memory; nothing has
-  // changed then.
+  // Whether there may be room for more entries of lists.
+  [[nodiscard]] bool can_grow() const {
+    return tiles_.subpatches.size() / sizeof(uint32_t) < buffer_limit_ / sizeof(uint32_t);
+  }
+
+  // If lists of that band were left out for lack of room and can_grow(): makes room for them, with
+  // another buffer for subpatches(), and returns true. Throws DeviceError if there is no memory;
+  // nothing has changed then.
   bool grow(const gpu::Device& device);
 
  private:
-  // What the last band's lists add up to.
+  // What that band's lists add up to.
   [[nodiscard]] TileTotals counted() const;
 
   // The buffers whose sizes depend on the image's.
@@ -83,6 +88,7 @@ class TileLists {
   gpu::Buffer projected_;
   Tiles tiles_;
   gpu::Buffer totals_;
+  gpu::Buffer counted_;  // its copy for the host
 };
 
 }  // namespace trisect

@@ -1,8 +1,10 @@
 #include "app/dispatch/vulkan_tracer.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <span>
 #include <stdexcept>
+#include <string>
 
 #include "app/bake/subpatch_bounds.h"
 #include "app/base/error.h"
@@ -90,15 +92,23 @@ std::vector<gpu::Kernel> shadow_kernels_for(const gpu::Device& device, const Bak
   return kernels_for(device, scene, accel, by_address, constants, code);
 }
 
+// The most workgroups of a part of a band: those for whose rays the queue has places.
+uint32_t groups_of_part(uint32_t width, uint32_t band_rows, std::size_t buffer_limit) {
+  const std::size_t places = buffer_limit / (RayQueue::kBytes * kGroupRays);
+  const uint32_t most = groups_of_band(width, 0, band_rows).part_limit();
+  return static_cast<uint32_t>(std::clamp<std::size_t>(places, 1, most));
+}
+
 }  // namespace
 
 VulkanTracer::ImageBuffers::ImageBuffers(const gpu::Device& device, uint32_t width,
-                                         uint32_t band_rows, bool with_aovs)
+                                         uint32_t band_rows, bool with_aovs,
+                                         std::size_t buffer_limit)
     : colors(device, std::size_t{width} * band_rows * sizeof(vec4), gpu::Memory::device, "colors"),
       // A binding needs a buffer; without AOVs it has one element that no kernel writes.
       aovs(device, (with_aovs ? std::size_t{width} * band_rows : 1) * sizeof(PixelAovs),
            gpu::Memory::device, "AOVs"),
-      queue(device, groups_of_band(width, 0, band_rows).submit_limit() * kGroupRays) {}
+      queue(device, groups_of_part(width, band_rows, buffer_limit) * kGroupRays) {}
 
 VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, uint32_t width,
                            uint32_t height, const KernelChoice& choice, std::size_t buffer_limit,
@@ -115,10 +125,12 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
       kernels_(kernels_for(device, scene, choice.accel, scene_.by_address(),
                            constants_of(device, scene, choice), code)),
       shadow_kernels_(shadow_kernels_for(device, scene, choice, scene_.by_address(), code)),
+      begin_kernel_(make_kernel(device, kBeginKernel, {}, code)),
+      next_kernel_(make_kernel(device, kNextKernel, {}, code)),
       commands_(device),
       staging_(device, kStagingBytes),
       params_(device, sizeof(TraceParams), gpu::Memory::device, "trace parameters"),
-      image_(device, width, band_rows_, writes_aovs_),
+      image_(device, width, band_rows_, writes_aovs_, buffer_limit_),
       unused_(device, sizeof(vec4), gpu::Memory::device, "unused"),
       descriptors_(bind()) {
   const Stopwatch watch;
@@ -145,7 +157,7 @@ void VulkanTracer::resize(uint32_t width, uint32_t height) {
       rows_in_a_band(device_.report().name, buffer_limit_, width, height, writes_aovs_);
   // If an allocation throws, no frame fits the tracer, and it can be resized again.
   width_ = height_ = band_rows_ = 0;
-  image_ = ImageBuffers(device_, width, rows, writes_aovs_);
+  image_ = ImageBuffers(device_, width, rows, writes_aovs_, buffer_limit_);
   if (tiles_) tiles_->resize(device_, width, rows);
   descriptors_ = bind();
   width_ = width;
@@ -153,20 +165,17 @@ void VulkanTracer::resize(uint32_t width, uint32_t height) {
   band_rows_ = rows;
 }
 
-double VulkanTracer::project(const TraceParams& params) {
+void VulkanTracer::check_size(const TraceParams& params) const {
   if (params.width > width_ || params.height > height_) {
     throw std::logic_error("the trace parameters are not for this tracer's image size");
   }
-  staging_.upload(commands_, std::as_bytes(std::span(&params, 1)), params_);
-  image_.queue.begin_count();
-  return tiles_ ? tiles_->project(commands_, descriptors_) : 0.0;
 }
 
 std::optional<FrameTime> VulkanTracer::render(const TraceParams& params, Frame& frame,
                                               const KeepGoing& keep_going) {
   const Stopwatch watch;
   FrameTime time;
-  time.gpu_ms += project(params);
+  check_size(params);
   frame.resize(params.width, params.height, aovs_);
   for (uint32_t row = 0; row < params.height; row += band_rows_) {
     const uint32_t rows = std::min(band_rows_, params.height - row);
@@ -175,8 +184,7 @@ std::optional<FrameTime> VulkanTracer::render(const TraceParams& params, Frame& 
     time.gpu_ms += *ms;
     download_band(row, rows, frame);
   }
-  frame.bytes_read = image_.queue.bytes_read();
-  frame.queued_rays = image_.queue.queued_rays();
+  count_work(frame);
   time.wall_ms = watch.milliseconds();
   return time;
 }
@@ -191,10 +199,15 @@ void VulkanTracer::download_band(uint32_t first_row, uint32_t rows, Frame& frame
   staging_.download(commands_, image_.aovs, std::as_writable_bytes(aovs.subspan(first, count)));
 }
 
+void VulkanTracer::count_work(Frame& frame) const {
+  const QueueState state = image_.queue.state();
+  frame.bytes_read = bytes_in(state);
+  frame.queued_rays = state.all_queued;
+}
+
 void VulkanTracer::fetch(const TraceParams& params, Frame& frame) {
   frame.resize(params.width, params.height, aovs_);
-  frame.bytes_read = image_.queue.bytes_read();
-  frame.queued_rays = image_.queue.queued_rays();
+  count_work(frame);
   download_band(0, params.height, frame);
 }
 
@@ -202,49 +215,95 @@ std::optional<double> VulkanTracer::trace(const TraceParams& params, const KeepG
   if (!holds_at_once(params.width, params.height)) {
     throw std::logic_error("the frame does not fit into the output buffers");
   }
-  const double ms = project(params);
-  const std::optional<double> band_ms = render_band(params, 0, params.height, keep_going);
-  return band_ms ? std::optional(ms + *band_ms) : std::nullopt;
+  check_size(params);
+  return render_band(params, 0, params.height, keep_going);
 }
 
 std::optional<double> VulkanTracer::render_band(const TraceParams& params, uint32_t first_row,
                                                 uint32_t rows, const KeepGoing& keep_going) {
   const GroupRange all = groups_of_band(params.width, first_row, rows);
+  const GroupRange listed{0, all.end - all.begin};
+  BandParts band(tiles_ ? listed : all, shadow_kernels_.empty() ? GroupRange{0, 0} : all);
+  bool begins_frame = first_row == 0;
+  bool has_lists = !tiles_.has_value();
   double gpu_ms = 0.0;
-  GroupRange groups = all;
-  if (tiles_) {
-    gpu_ms += tiles_->bin(commands_, descriptors_, params.width, first_row, rows);
-    if (tiles_->grow(device_)) {
-      descriptors_ = bind();
-      gpu_ms += tiles_->bin(commands_, descriptors_, params.width, first_row, rows);
+  while (!band.is_done()) {
+    commands_.begin();
+    if (begins_frame) record_frame(params);
+    begins_frame = false;
+    if (!has_lists) tiles_->bin(commands_, descriptors_, params.width, first_row, rows);
+    commands_.mark();
+    image_.queue.begin_parts(commands_);
+    std::vector<BandParts::Part> parts =
+        band.next(budget_.groups(), image_.queue.rays() / kGroupRays);
+    for (const BandParts::Part& part : parts) record_part(part, first_row, rows);
+    image_.queue.read_state(commands_);
+    gpu_ms += commands_.submit_and_wait();
+
+    if (!has_lists) {
+      if (tiles_->grow(device_)) {
+        descriptors_ = bind();
+        continue;
+      }
+      has_lists = true;
+      band.end_camera_at(tiles_->tiles_seen());
     }
-    groups = {0, tiles_->tiles_seen()};
-  }
-  const std::optional<double> ms = run(kernels_, groups, first_row, rows, keep_going);
-  if (!ms) return std::nullopt;
-  gpu_ms += *ms;
-  if (!shadow_kernels_.empty()) {
-    const std::optional<double> shadow_ms = run(shadow_kernels_, all, first_row, rows, keep_going);
-    if (!shadow_ms) return std::nullopt;
-    gpu_ms += *shadow_ms;
+    // If rays of a part are left, those after it have not begun.
+    const uint32_t begun = image_.queue.state().begun;
+    if (begun == 0 || begun > parts.size()) {
+      throw DeviceError(device_.report().name + " began " + std::to_string(begun) + " of " +
+                        std::to_string(parts.size()) + " parts of a frame.");
+    }
+    parts.resize(begun);
+    const uint32_t groups = band.finish(parts);
+    if (groups > 0) budget_.record(groups, commands_.ms_since_mark());
+    const std::optional<double> ms = finish_rays(parts.back(), first_row, rows, keep_going);
+    if (!ms || !may_go_on(keep_going)) return std::nullopt;
+    gpu_ms += *ms;
   }
   return gpu_ms;
 }
 
-std::optional<double> VulkanTracer::run(std::span<const gpu::Kernel> kernels, GroupRange groups,
-                                        uint32_t first_row, uint32_t rows,
-                                        const KeepGoing& keep_going) {
+void VulkanTracer::record_frame(const TraceParams& params) {
+  commands_.update(params_, 0, std::as_bytes(std::span(&params, 1)));
+  image_.queue.begin_frame(commands_);
+  if (tiles_) tiles_->project(commands_, descriptors_);
+}
+
+void VulkanTracer::record_part(const BandParts::Part& part, uint32_t first_row, uint32_t rows) {
+  const bool listed = tiles_.has_value() && !part.shadows;
+  const TilePush push{.first_group = part.first,
+                      .first_row = first_row,
+                      .rows = rows,
+                      .groups = part.count,
+                      .listed = listed ? 1U : 0U,
+                      .must_fit = listed && tiles_->can_grow() ? 1U : 0U,
+                      .steps = image_.queue.steps(),
+                      .half_queue = image_.queue.rays()};
+  const std::span<const std::byte> bytes = std::as_bytes(std::span(&push, 1));
+  commands_.dispatch(begin_kernel_, descriptors_, bytes, 1);
+  for (const gpu::Kernel& kernel : kernels_of(part)) {
+    commands_.dispatch_indirect(kernel, descriptors_, bytes, image_.queue.queued(),
+                                offsetof(QueueState, groups_x));
+    commands_.dispatch(next_kernel_, descriptors_, bytes, 1);
+  }
+}
+
+std::optional<double> VulkanTracer::finish_rays(const BandParts::Part& part, uint32_t first_row,
+                                                uint32_t rows, const KeepGoing& keep_going) {
+  const TilePush push{.first_group = part.first, .first_row = first_row, .rows = rows};
+  const std::span<const std::byte> bytes = std::as_bytes(std::span(&push, 1));
   double gpu_ms = 0.0;
-  for (uint32_t group = groups.begin; group < groups.end;) {
-    const uint32_t count = std::min({budget_.groups(), groups.end - group, groups.submit_limit()});
-    const std::optional<double> ms =
-        image_.queue.run(commands_, kernels, descriptors_, TilePush{{}, group, first_row, rows},
-                         count, kGroupRays, keep_going);
-    if (!ms) return std::nullopt;
-    gpu_ms += *ms;
-    group += count;
-    budget_.record(count, *ms);
+  for (QueueState state = image_.queue.state(); state.now.resumed > 0;
+       state = image_.queue.state()) {
     if (!may_go_on(keep_going)) return std::nullopt;
+    commands_.begin();
+    image_.queue.begin_parts(commands_);
+    commands_.dispatch(kernels_of(part).back(), descriptors_, bytes,
+                       (state.now.resumed + kGroupRays - 1) / kGroupRays);
+    commands_.dispatch(next_kernel_, descriptors_, bytes, 1);
+    image_.queue.read_state(commands_);
+    gpu_ms += commands_.submit_and_wait();
   }
   return gpu_ms;
 }

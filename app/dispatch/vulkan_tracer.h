@@ -12,10 +12,10 @@
 #include "app/buffers/kernel_choice.h"
 #include "app/buffers/kernel_code.h"
 #include "app/buffers/scene_buffers.h"
+#include "app/dispatch/band_parts.h"
 #include "app/dispatch/ray_queue.h"
 #include "app/dispatch/submit_budget.h"
 #include "app/dispatch/tile_lists.h"
-#include "app/dispatch/workgroups.h"
 #include "app/frame/frame.h"
 #include "app/frame/frame_time.h"
 #include "app/surface/shared.h"
@@ -26,6 +26,10 @@ namespace trisect {
 // For one thread at a time. The device must outlive the tracer; the scene need not.
 class VulkanTracer {
  public:
+  // In shaders/CMakeLists.txt: by which a frame goes on from pass to pass without the host.
+  static constexpr const char* kBeginKernel = "begin_part";
+  static constexpr const char* kNextKernel = "next_pass";
+
   // Uploads the scene, its BVH only if the choice needs it, and compiles the kernels. width,
   // height: the largest frame in pixels. choice: accelerations and shadows that need the BVH need a
   // scene that has one. buffer_limit: the most bytes of a buffer, if less than the device's own
@@ -35,10 +39,11 @@ class VulkanTracer {
                const KernelChoice& choice, std::size_t buffer_limit = kNoLimit,
                const KernelCode* code = nullptr);
 
-  // Renders into `frame`, which gets the size that `params` says, in submits of bounded time. An
-  // image that the output buffers do not hold is rendered in bands of rows. keep_going is asked
-  // between two submits; if it says stop, nothing is returned and the frame is incomplete. Throws
-  // std::logic_error if the image is larger than the tracer's, DeviceError if the device is lost.
+  // Renders into `frame`, which gets the size that `params` says, in submits of bounded time: in
+  // one if that is enough. An image that the output buffers do not hold is rendered in bands of
+  // rows. keep_going is asked between two submits; if it says stop, nothing is returned and the
+  // frame is incomplete. Throws std::logic_error if the image is larger than the tracer's,
+  // DeviceError if the device is lost.
   std::optional<FrameTime> render(const TraceParams& params, Frame& frame,
                                   const KeepGoing& keep_going = {});
 
@@ -67,6 +72,9 @@ class VulkanTracer {
   // What the constructor took for the upload, by the host's clock.
   [[nodiscard]] double upload_ms() const { return upload_ms_; }
 
+  // How many submits all that this tracer has done took.
+  [[nodiscard]] uint64_t submits() const { return commands_.submits(); }
+
   // Bytes of device memory for the scene and for tile lists: all but the images and the ray queue.
   [[nodiscard]] std::size_t scene_bytes() const {
     return scene_.bytes() + (tiles_ ? tiles_->bytes() : 0);
@@ -75,7 +83,8 @@ class VulkanTracer {
  private:
   // The buffers whose sizes depend on the frame's.
   struct ImageBuffers {
-    ImageBuffers(const gpu::Device& device, uint32_t width, uint32_t band_rows, bool with_aovs);
+    ImageBuffers(const gpu::Device& device, uint32_t width, uint32_t band_rows, bool with_aovs,
+                 std::size_t buffer_limit);
 
     gpu::Buffer colors;
     gpu::Buffer aovs;
@@ -84,13 +93,23 @@ class VulkanTracer {
 
   [[nodiscard]] gpu::DescriptorSet bind() const;
   void download_band(uint32_t first_row, uint32_t rows, Frame& frame);
-  // Uploads the parameters and, with tiles, projects the subpatches. Returns milliseconds on the
-  // device, like the others below, which return nothing if keep_going stopped them.
-  double project(const TraceParams& params);
+  void check_size(const TraceParams& params) const;
+  // Sets what the frame has counted of the work of the last frame.
+  void count_work(Frame& frame) const;
+  [[nodiscard]] std::span<const gpu::Kernel> kernels_of(const BandParts::Part& part) const {
+    return part.shadows ? shadow_kernels_ : kernels_;
+  }
+  // Traces a band in as few submits as the budget allows; with the first one of a frame goes what
+  // the frame begins with. Returns milliseconds on the device, or nothing if keep_going stopped it.
   std::optional<double> render_band(const TraceParams& params, uint32_t first_row, uint32_t rows,
                                     const KeepGoing& keep_going);
-  std::optional<double> run(std::span<const gpu::Kernel> kernels, GroupRange groups,
-                            uint32_t first_row, uint32_t rows, const KeepGoing& keep_going);
+  // Record, into a submit: what a frame begins with; all passes of a part for which there are
+  // kernels of their own.
+  void record_frame(const TraceParams& params);
+  void record_part(const BandParts::Part& part, uint32_t first_row, uint32_t rows);
+  // Goes on with the rays of a part that have paused, if there are any, a submit for each pass.
+  std::optional<double> finish_rays(const BandParts::Part& part, uint32_t first_row, uint32_t rows,
+                                    const KeepGoing& keep_going);
 
   const gpu::Device& device_;
   uint32_t width_;
@@ -103,6 +122,8 @@ class VulkanTracer {
   SceneBuffers scene_;
   std::vector<gpu::Kernel> kernels_;         // of tracing_kernels(), for camera rays
   std::vector<gpu::Kernel> shadow_kernels_;  // the same for shadow rays
+  gpu::Kernel begin_kernel_;
+  gpu::Kernel next_kernel_;
   gpu::Commands commands_;
   gpu::Staging staging_;
   gpu::Buffer params_;

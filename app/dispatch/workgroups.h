@@ -20,8 +20,8 @@ struct GroupRange {
   uint32_t begin;
   uint32_t end;
 
-  // The most workgroups in one submit: for each of their rays the queue needs a place.
-  [[nodiscard]] uint32_t submit_limit() const { return std::min(end - begin, uint32_t{4096}); }
+  // The most workgroups traced at a time: for each of their rays the queue needs a place.
+  [[nodiscard]] uint32_t part_limit() const { return std::min(end - begin, uint32_t{4096}); }
 };
 
 // The workgroups of a band of the image: `rows` rows from first_row on, a multiple of TILE_SIZE.

@@ -74,7 +74,7 @@ Tracer::Tracer(const BakedScene& scene, uint32_t width, uint32_t height, const K
       push_(sizeof(TilePush), "push constants"),
       queued_(sizeof(QueueState), "number of paused rays"),
       paused_(path == GlPath::compute
-                  ? std::size_t{2} * groups_of_band(width, 0, band_rows_).submit_limit() *
+                  ? std::size_t{2} * groups_of_band(width, 0, band_rows_).part_limit() *
                         kGroupRays * sizeof(PausedRay)
                   : std::size_t{width} * band_rows_ * sizeof(PausedRay),
               "paused rays"),
@@ -146,12 +146,14 @@ std::optional<double> Tracer::render_band(const TraceParams& params, uint32_t fi
   return shadow_ms ? std::optional(*ms + *shadow_ms) : std::nullopt;
 }
 
-uint32_t Tracer::submit(const TilePush& push, const std::function<void()>& work) {
+uint32_t Tracer::submit(const QueuePass& pass, const TilePush& push,
+                        const std::function<void()>& work) {
   push_.write(std::as_bytes(std::span(&push, 1)));
-  queued_.clear();
+  QueueState state{};
+  state.now = pass;
+  queued_.write(std::as_bytes(std::span(&state, 1)));
   work();
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-  QueueState state{};
   // Reading the buffer waits for the work.
   queued_.read(0, std::as_writable_bytes(std::span(&state, 1)));
   bytes_read_ += bytes_in(state);
@@ -164,15 +166,15 @@ std::optional<double> Tracer::compute_band(const Program& program, uint32_t firs
   glUseProgram(program.get());
   double total_ms = 0.0;
   for (uint32_t group = groups.begin; group < groups.end;) {
-    const uint32_t count = std::min({budget_.groups(), groups.end - group, groups.submit_limit()});
+    const uint32_t count = std::min({budget_.groups(), groups.end - group, groups.part_limit()});
     const Stopwatch watch;
-    run_until_finished(
-        RayQueue::kSteps, groups.submit_limit() * kGroupRays,
-        [&](const QueuePush& queue) -> std::optional<uint32_t> {
-          const uint32_t submitted =
-              queue.pass == 0 ? count : (queue.resumed + kGroupRays - 1) / kGroupRays;
-          return submit({queue, group, first_row}, [&] { glDispatchCompute(submitted, 1, 1); });
-        });
+    run_until_finished(RayQueue::kSteps, groups.part_limit() * kGroupRays,
+                       [&](const QueuePass& pass) {
+                         const uint32_t submitted =
+                             pass.pass == 0 ? count : (pass.resumed + kGroupRays - 1) / kGroupRays;
+                         return submit(pass, {.first_group = group, .first_row = first_row},
+                                       [&] { glDispatchCompute(submitted, 1, 1); });
+                       });
     const double ms = watch.milliseconds();
     total_ms += ms;
     group += count;
@@ -201,8 +203,9 @@ std::optional<double> Tracer::draw_band(const TraceParams& params, uint32_t firs
     glScissor(0, static_cast<GLint>(row), static_cast<GLsizei>(width_),
               static_cast<GLsizei>(count));
     const Stopwatch watch;
-    run_until_finished(RayQueue::kSteps, 0, [&](const QueuePush& queue) -> std::optional<uint32_t> {
-      return submit({queue, lowest, first_row}, [] { glDrawArrays(GL_TRIANGLE_STRIP, 0, 4); });
+    run_until_finished(RayQueue::kSteps, 0, [&](const QueuePass& pass) {
+      return submit(pass, {.first_group = lowest, .first_row = first_row},
+                    [] { glDrawArrays(GL_TRIANGLE_STRIP, 0, 4); });
     });
     const double ms = watch.milliseconds();
     total_ms += ms;

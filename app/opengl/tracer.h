@@ -40,7 +40,7 @@ class Tracer {
   void bind() const;
   // Calls `work`, which draws or dispatches, with these push constants. Returns how many rays
   // paused.
-  uint32_t submit(const TilePush& push, const std::function<void()>& work);
+  uint32_t submit(const QueuePass& pass, const TilePush& push, const std::function<void()>& work);
   // These return milliseconds, or nothing if keep_going stopped them.
   std::optional<double> compute_band(const Program& program, uint32_t first_row, uint32_t rows,
                                      const KeepGoing& keep_going);

@@ -194,10 +194,16 @@ TEST(Layout, TileTotals) {
 TEST(Layout, QueueState) {
   const Held held = bound_to(BINDING_QUEUED);
   EXPECT_EQ(held.stride, sizeof(QueueState));
-  EXPECT_EQ(held.offsets, (Offsets{{"queued", offsetof(QueueState, queued)},
+  EXPECT_EQ(held.offsets, (Offsets{{"now", offsetof(QueueState, now)},
+                                   {"queued", offsetof(QueueState, queued)},
                                    {"bytes_low", offsetof(QueueState, bytes_low)},
                                    {"bytes_high", offsetof(QueueState, bytes_high)},
-                                   {"padding", offsetof(QueueState, padding)}}));
+                                   {"all_queued", offsetof(QueueState, all_queued)},
+                                   {"begun", offsetof(QueueState, begun)},
+                                   {"is_held", offsetof(QueueState, is_held)},
+                                   {"groups_x", offsetof(QueueState, groups_x)},
+                                   {"groups_y", offsetof(QueueState, groups_y)},
+                                   {"groups_z", offsetof(QueueState, groups_z)}}));
 }
 
 TEST(Layout, PausedRay) {
@@ -232,10 +238,14 @@ TEST(Layout, OutputsAndPushConstants) {
   ASSERT_EQ(resources.push_constant_buffers.size(), 1U);
   const Held push = held_by(compiler, resources.push_constant_buffers[0]);
   EXPECT_EQ(push.stride, sizeof(TilePush));
-  EXPECT_EQ(push.offsets, (Offsets{{"queue", offsetof(TilePush, queue)},
-                                   {"first_group", offsetof(TilePush, first_group)},
+  EXPECT_EQ(push.offsets, (Offsets{{"first_group", offsetof(TilePush, first_group)},
                                    {"first_row", offsetof(TilePush, first_row)},
-                                   {"rows", offsetof(TilePush, rows)}}));
+                                   {"rows", offsetof(TilePush, rows)},
+                                   {"groups", offsetof(TilePush, groups)},
+                                   {"listed", offsetof(TilePush, listed)},
+                                   {"must_fit", offsetof(TilePush, must_fit)},
+                                   {"steps", offsetof(TilePush, steps)},
+                                   {"half_queue", offsetof(TilePush, half_queue)}}));
 }
 
 TEST(Layout, ScreenPushIsTheFragmentShaders) {

@@ -68,7 +68,7 @@ TEST(FailingCalls, AreToldByOtherCommands) {
   for (const test::FaultyRun& run :
        bench.run_all({{"vkCreateComputePipelines", 5, "VK_ERROR_OUT_OF_HOST_MEMORY"},
                       {"vkAllocateMemory", 20, "VK_ERROR_OUT_OF_DEVICE_MEMORY"},
-                      {"vkWaitForFences", 30, "VK_ERROR_DEVICE_LOST"}})) {
+                      {"vkWaitForFences", 10, "VK_ERROR_DEVICE_LOST"}})) {
     test::expect_told(run);
   }
 }
