@@ -65,7 +65,7 @@ shared: 20% either way means nothing.
   the scene's radius (or, where that takes more than sixteen million of them, as fine as sixteen million are)
 
 \`wrong\` \`of\`: pixels of a grid that the oracle decides and the contender has otherwise, hit or colour. KB: what a scene takes,
-images aside. build: bake, tree, tessellation.
+images aside. build: bake, tree, tessellation. CPU ms: of all threads of the process.
 END
   for driver in newer stock; do tables $driver; done
   cat <<END
@@ -84,7 +84,7 @@ How many times as fast the tiles are, on Mesa 25.0.7, then on 22.3.6:
 Frames by tiles on Mesa 25.0.7, and what their rays do. The scene is read at one or two GB a second, and lies in the cores' own
 caches: memory is not the limit. The time goes with the evaluations of the surface and what leads to them. Newton's method takes
 two or three for each subpatch that a ray comes near, few enough that tenfold faster frames would need cheaper ones, and not fewer.
-So a frame stays many times an image that has nothing but the sky's colour.
+The column \`of the image\` above says how far that is from an image that has nothing but the sky's colour.
 
 END
   limits

@@ -165,17 +165,13 @@ void VulkanTracer::resize(uint32_t width, uint32_t height) {
   band_rows_ = rows;
 }
 
-void VulkanTracer::check_size(const TraceParams& params) const {
+std::optional<FrameTime> VulkanTracer::render(const TraceParams& params, Frame& frame,
+                                              const KeepGoing& keep_going) {
   if (params.width > width_ || params.height > height_) {
     throw std::logic_error("the trace parameters are not for this tracer's image size");
   }
-}
-
-std::optional<FrameTime> VulkanTracer::render(const TraceParams& params, Frame& frame,
-                                              const KeepGoing& keep_going) {
   const Stopwatch watch;
   FrameTime time;
-  check_size(params);
   frame.resize(params.width, params.height, aovs_);
   for (uint32_t row = 0; row < params.height; row += band_rows_) {
     const uint32_t rows = std::min(band_rows_, params.height - row);
@@ -215,7 +211,6 @@ std::optional<double> VulkanTracer::trace(const TraceParams& params, const KeepG
   if (!holds_at_once(params.width, params.height)) {
     throw std::logic_error("the frame does not fit into the output buffers");
   }
-  check_size(params);
   return render_band(params, 0, params.height, keep_going);
 }
 

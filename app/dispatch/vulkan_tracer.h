@@ -93,7 +93,6 @@ class VulkanTracer {
 
   [[nodiscard]] gpu::DescriptorSet bind() const;
   void download_band(uint32_t first_row, uint32_t rows, Frame& frame);
-  void check_size(const TraceParams& params) const;
   // Sets what the frame has counted of the work of the last frame.
   void count_work(Frame& frame) const;
   [[nodiscard]] std::span<const gpu::Kernel> kernels_of(const BandParts::Part& part) const {
