@@ -73,7 +73,7 @@ TEST_F(FrameSubmits, AreOneIfThatIsEnough) {
 
 // The bytes of a queue with places for the rays of so many workgroups.
 constexpr std::size_t queue_of(uint32_t groups) {
-  return groups * kGroupRays * RayQueue::kBytes;
+  return RayQueue::kBytes * groups * kGroupRays;
 }
 
 // More workgroups than the queue has places for: several parts go into a submit.
