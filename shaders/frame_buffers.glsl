@@ -32,3 +32,9 @@ uvec2 pixel_in_tile(uint i) { return uvec2((i & 3u) | ((i >> 1) & 4u), ((i >> 2)
 
 // The number of tiles that cover so many pixels of a row or a column.
 uint tiles_across(uint pixels) { return (pixels + TILE_SIZE - 1u) / TILE_SIZE; }
+
+// The pixel of the image that invocation i has in this tile, which is numbered in raster order.
+uvec2 pixel_of_tile(uint tile, uint i) {
+  uint columns = tiles_across(params.width);
+  return uvec2(tile % columns, tile / columns) * TILE_SIZE + pixel_in_tile(i);
+}

@@ -27,9 +27,7 @@ layout(local_size_x = TILE_SIZE * TILE_SIZE) in;
 #include "packets.glsl"
 
 void main() {
-  uint tile = push.first_group + gl_WorkGroupID.x;
-  uint columns = tiles_across(params.width);
-  uvec2 pixel = uvec2(tile % columns, tile / columns) * TILE_SIZE + pixel_in_tile(gl_LocalInvocationIndex);
+  uvec2 pixel = pixel_of_tile(push.first_group + gl_WorkGroupID.x, gl_LocalInvocationIndex);
   precise PixelRay ray = ray_of(pixel);
   precise Traversal traversal = begin_pixel_traversal(pixel, 0);
   Packet packet = packet_of(ray, traversal.hit.z != TRAVERSAL_ENDED);

@@ -63,9 +63,7 @@ bool traverse_query(PixelRay ray, inout Traversal traversal) {
 }
 
 void main() {
-  uint tile = push.first_group + gl_WorkGroupID.x;
-  uint columns = tiles_across(params.width);
-  uvec2 pixel = uvec2(tile % columns, tile / columns) * TILE_SIZE + pixel_in_tile(gl_LocalInvocationIndex);
+  uvec2 pixel = pixel_of_tile(push.first_group + gl_WorkGroupID.x, gl_LocalInvocationIndex);
   if (pixel.x >= params.width || pixel.y >= params.height) return;
   precise PixelRay ray = ray_of(pixel);
   precise Traversal traversal = begin_pixel_traversal(pixel, int(state.now.steps));

@@ -147,9 +147,7 @@ uint least_of(uvec4 a) { return min(min(a.x, a.y), min(a.z, a.w)); }
 
 void main() {
   uint tile = tile_order[push.first_group + gl_WorkGroupID.x];
-  uint columns = tiles_across(params.width);
-  uvec2 pixel = uvec2(tile % columns, tile / columns) * TILE_SIZE + uvec2(0u, push.first_row) +
-                pixel_in_tile(gl_LocalInvocationIndex);
+  uvec2 pixel = pixel_of_tile(tile, gl_LocalInvocationIndex) + uvec2(0u, push.first_row);
   vec2 position = vec2(pixel) + vec2(0.5);
   vec2 least = vec2(subgroupMin(position.x), subgroupMin(position.y));
   vec2 largest = vec2(subgroupMax(position.x), subgroupMax(position.y));
