@@ -91,7 +91,7 @@ struct TileList {
                // tile has more than TILE_CAPACITY subpatches, or there is no room for them
 };
 
-// What the lists of a band of the image add up to, for the host to read.
+// What the lists of a band of the image add up to.
 struct TileTotals {
   uint tiles;    // with a subpatch
   uint entries;  // of all lists of at most TILE_CAPACITY subpatches

@@ -158,10 +158,6 @@ vec3 planes_of(uint corner) {
           corner >> (2U * BVH_PLANE_BITS) & kLastPlane};
 }
 
-bool has_child(const BvhNode& node, uint32_t k) {
-  return (node.children >> k & 1U) != 0;
-}
-
 // The box around those of a node's children.
 SubpatchBox around_children(const BvhNode& node, const std::array<SubpatchBox, kChildren>& boxes) {
   SubpatchBox all = no_box();

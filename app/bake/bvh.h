@@ -25,6 +25,10 @@ std::vector<BvhNode> build_bvh(const BakedScene& scene);
 // way. Meant for a change of alpha or of the surface of one mesh. Pure.
 std::optional<std::vector<BvhNode>> refitted_bvh(const BakedScene& scene, const BakedScene& other);
 
+inline bool has_child(const BvhNode& node, uint32_t k) {
+  return (node.children >> k & 1U) != 0;
+}
+
 // The box of child k, which must exist, as the kernels compute it; it contains that of the
 // subpatch, or those of the child's children.
 SubpatchBox child_box(const BvhNode& node, uint32_t k);

@@ -24,10 +24,6 @@ bool contains(const SubpatchBox& outer, const SubpatchBox& box) {
          glm::all(glm::greaterThanEqual(outer.hi, box.hi));
 }
 
-bool has_child(const BvhNode& node, uint32_t k) {
-  return (node.children >> k & 1U) != 0;
-}
-
 // Whether the boxes of the leaf, which is child k of node n, and of all above it contain this one.
 bool is_contained_in_all(const SubpatchBox& box, const std::vector<BvhNode>& bvh, uint32_t n,
                          uint32_t k) {

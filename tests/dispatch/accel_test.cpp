@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 #include <vector>
 
 #include "app/bake/bvh.h"
@@ -38,30 +37,14 @@ Frame trace(const BakedScene& scene, const TraceSettings& settings, Accel accel,
   return frame;
 }
 
-void expect_equal(const Frame& a, const Frame& b, const std::string& what) {
-  ASSERT_GT(a.hits(), 0U) << what;
-  ASSERT_EQ(a.aovs.size(), b.aovs.size());
-  EXPECT_EQ(std::memcmp(a.colors.data(), b.colors.data(), a.colors.size() * sizeof(vec4)), 0)
-      << what;
-  std::size_t different = 0;
-  for (std::size_t i = 0; i < a.aovs.size(); ++i) {
-    const PixelAovs& p = a.aovs[i];
-    const PixelAovs& q = b.aovs[i];
-    // The counts of work may differ.
-    const bool same = p.normal_z == q.normal_z && p.geometric_u == q.geometric_u && p.v == q.v &&
-                      p.triangle == q.triangle;
-    if (!same) ++different;
-  }
-  EXPECT_EQ(different, 0U) << what;
-}
-
 // Every acceleration against the list.
 void expect_all_equal(BakedScene scene, const TraceSettings& settings, const std::string& what,
                       std::size_t buffer_limit = kNoLimit) {
   scene.bvh = build_bvh(scene);
   const Frame list = trace(scene, settings, Accel::list);
   for (const Accel accel : fast_accels()) {
-    expect_equal(list, trace(scene, settings, accel, buffer_limit), what + " " + accel_name(accel));
+    test::expect_equal(list, trace(scene, settings, accel, buffer_limit),
+                       what + " " + accel_name(accel));
   }
 }
 
@@ -202,15 +185,17 @@ TEST_F(Acceleration, WorksWithSubgroupsOfAnySize) {
     ASSERT_EQ(device.subgroup_size(), size);
     const std::string what = "subgroups of " + std::to_string(size);
     tried += " " + std::to_string(size);
-    expect_equal(list, trace(scene, settings, Accel::bvh, kNoLimit, device), what + ", bvh");
+    test::expect_equal(list, trace(scene, settings, Accel::bvh, kNoLimit, device), what + ", bvh");
     if (device.has_addresses()) {
       const std::size_t limit = scene.triangles.size() * sizeof(Triangle) - 1;
-      expect_equal(list, trace(scene, settings, Accel::bvh, limit, device), what + ", addresses");
+      test::expect_equal(list, trace(scene, settings, Accel::bvh, limit, device),
+                         what + ", addresses");
     }
     if (size == 0) {
       EXPECT_THROW(trace(scene, settings, Accel::tiles, kNoLimit, device), gpu::Error);
     } else {
-      expect_equal(list, trace(scene, settings, Accel::tiles, kNoLimit, device), what + ", tiles");
+      test::expect_equal(list, trace(scene, settings, Accel::tiles, kNoLimit, device),
+                         what + ", tiles");
     }
   }
   RecordProperty("subgroup_sizes", tried);
@@ -233,10 +218,11 @@ TEST_F(Acceleration, WorksWithEveryVersionOfVulkan) {
       EXPECT_LE(device.capabilities().version, version);
       for (const Accel accel : fast_accels(device)) {
         const Frame frame = trace(scene, settings, accel, kNoLimit, device);
-        expect_equal(list, frame, what + ", " + accel_name(accel));
+        test::expect_equal(list, frame, what + ", " + accel_name(accel));
       }
       if (device.has_addresses()) {
-        expect_equal(list, trace(scene, settings, Accel::bvh, limit, device), what + ", addresses");
+        test::expect_equal(list, trace(scene, settings, Accel::bvh, limit, device),
+                           what + ", addresses");
       }
     }
     for (const std::string& message : instance.log().messages()) ADD_FAILURE() << message;
@@ -272,7 +258,8 @@ TEST_F(Acceleration, ReachesLargeBuffersByTheirAddresses) {
   const TraceSettings settings = small(test::load_asset("teapot"), scene);
   const std::size_t limit = scene.triangles.size() * sizeof(Triangle) - 1;
   ASSERT_TRUE(test::validated_device().has_addresses());
-  expect_equal(trace(scene, settings, Accel::list), trace(scene, settings, Accel::bvh, limit), "");
+  test::expect_equal(trace(scene, settings, Accel::list), trace(scene, settings, Accel::bvh, limit),
+                     "");
   EXPECT_THROW(trace(scene, settings, Accel::list, limit), gpu::Error);
 }
 

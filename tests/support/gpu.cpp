@@ -1,6 +1,7 @@
 #include "tests/support/gpu.h"
 
 #include <cstdlib>
+#include <cstring>
 #include <string_view>
 
 #include "app/bake/subpatch_bounds.h"
@@ -39,6 +40,23 @@ TraceSettings framed(const Mesh& mesh, const BakedScene& scene, uint32_t width, 
   settings.solver = SOLVER_BISECT;
   settings.rank = rank;
   return settings;
+}
+
+void expect_equal(const Frame& a, const Frame& b, const std::string& what) {
+  ASSERT_GT(a.hits(), 0U) << what;
+  ASSERT_EQ(a.aovs.size(), b.aovs.size());
+  EXPECT_EQ(std::memcmp(a.colors.data(), b.colors.data(), a.colors.size() * sizeof(vec4)), 0)
+      << what;
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < a.aovs.size(); ++i) {
+    const PixelAovs& p = a.aovs[i];
+    const PixelAovs& q = b.aovs[i];
+    // The counts of work may differ.
+    const bool same = p.normal_z == q.normal_z && p.geometric_u == q.geometric_u && p.v == q.v &&
+                      p.triangle == q.triangle;
+    if (!same) ++different;
+  }
+  EXPECT_EQ(different, 0U) << what;
 }
 
 }  // namespace trisect::test

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "app/bake/bake.h"
 #include "app/dispatch/trace_settings.h"
 #include "app/frame/frame.h"
@@ -31,6 +33,10 @@ class GpuTest : public ::testing::Test {
 
 // One frame with AOVs and counts.
 Frame trace(const BakedScene& baked, const TraceSettings& settings);
+
+// Expects hits, and that colours and AOVs have the same bits, but for the counts of work. what: for
+// messages.
+void expect_equal(const Frame& a, const Frame& b, const std::string& what);
 
 // Settings for a small image of a model seen as `trisect render` sees it by default.
 TraceSettings framed(const Mesh& mesh, const BakedScene& scene, uint32_t width, uint32_t height,
