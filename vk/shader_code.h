@@ -15,6 +15,8 @@ namespace trisect::gpu {
 struct Specialization {
   uint32_t constant_id;
   uint32_t value;
+
+  bool operator==(const Specialization&) const = default;
 };
 
 using ShaderCode = std::vector<uint32_t>;

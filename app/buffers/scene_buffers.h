@@ -52,6 +52,12 @@ class SceneBuffers {
 
   [[nodiscard]] bool by_address() const { return by_address_; }
 
+  // by_address() of the buffers that the constructor would make.
+  static bool is_by_address(const gpu::Device& device, const BakedScene& scene, std::size_t limit,
+                            const Needs& needs) {
+    return placement_of(device, scene, limit, needs).memory == gpu::Memory::addressed;
+  }
+
   // Lets kernels reach this buffer as that of Addresses::projected_low. Only if by_address().
   void set_projected(const gpu::Buffer& projected);
 

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <span>
 
-#include "app/buffers/kernels.h"
 #include "app/dispatch/workgroups.h"
 
 namespace trisect {
@@ -12,12 +11,6 @@ namespace {
 
 std::span<const std::byte> bytes_of(const TilePush& push) {
   return std::as_bytes(std::span(&push, 1));
-}
-
-// constants, for the kernel that fills the lists.
-std::vector<gpu::Specialization> filling(std::vector<gpu::Specialization> constants) {
-  constants.push_back({CONSTANT_FILLS, 1U});
-  return constants;
 }
 
 // Entries of lists for which there is room at first, for each tile.
@@ -33,14 +26,9 @@ TileLists::Tiles::Tiles(const gpu::Device& device, uint32_t width, uint32_t band
       order(device, lists.size() / sizeof(TileList) * sizeof(uint32_t), gpu::Memory::device,
             "order of tiles") {}
 
-TileLists::TileLists(const gpu::Device& device, const std::vector<gpu::Specialization>& constants,
-                     const KernelCode* code, uint32_t subpatches, uint32_t width,
+TileLists::TileLists(const gpu::Device& device, uint32_t subpatches, uint32_t width,
                      uint32_t band_rows, std::size_t buffer_limit)
     : groups_((subpatches + SUBPATCH_GROUP_SIZE - 1) / SUBPATCH_GROUP_SIZE),
-      project_kernel_(make_kernel(device, kProjectKernel, constants, code)),
-      count_kernel_(make_kernel(device, kBinKernel, constants, code)),
-      sky_kernel_(make_kernel(device, kSkyKernel, constants, code)),
-      fill_kernel_(make_kernel(device, kBinKernel, filling(constants), code)),
       buffer_limit_(buffer_limit),
       projected_(device, std::size_t{subpatches} * sizeof(ProjectedSubpatch),
                  device.loads_fast_by_address() ? gpu::Memory::addressed : gpu::Memory::device,
@@ -53,20 +41,22 @@ void TileLists::resize(const gpu::Device& device, uint32_t width, uint32_t band_
   tiles_ = Tiles(device, width, band_rows);
 }
 
-void TileLists::project(gpu::Commands& commands, const gpu::DescriptorSet& descriptors) const {
-  commands.dispatch(project_kernel_, descriptors, bytes_of({}), groups_);
+void TileLists::project(gpu::Commands& commands, const TracerKernels& kernels,
+                        const gpu::DescriptorSet& descriptors) const {
+  commands.dispatch(kernels.project(), descriptors, bytes_of({}), groups_);
 }
 
-void TileLists::bin(gpu::Commands& commands, const gpu::DescriptorSet& descriptors, uint32_t width,
-                    uint32_t first_row, uint32_t rows) const {
+void TileLists::bin(gpu::Commands& commands, const TracerKernels& kernels,
+                    const gpu::DescriptorSet& descriptors, uint32_t width, uint32_t first_row,
+                    uint32_t rows) const {
   const uint32_t row_groups = (tiles_across(rows) + BIN_ROWS - 1) / BIN_ROWS;
   const TilePush push{.first_row = first_row, .rows = rows};
   commands.clear(tiles_.lists);
   commands.clear(totals_);
-  commands.dispatch(count_kernel_, descriptors, bytes_of(push), groups_, row_groups);
-  commands.dispatch(sky_kernel_, descriptors, bytes_of(push), tiles_across(width),
+  commands.dispatch(kernels.count(), descriptors, bytes_of(push), groups_, row_groups);
+  commands.dispatch(kernels.sky(), descriptors, bytes_of(push), tiles_across(width),
                     tiles_across(rows));
-  commands.dispatch(fill_kernel_, descriptors, bytes_of(push), groups_, row_groups);
+  commands.dispatch(kernels.fill(), descriptors, bytes_of(push), groups_, row_groups);
   commands.copy(totals_, 0, counted_, 0, sizeof(TileTotals));
 }
 

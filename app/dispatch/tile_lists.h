@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "app/buffers/kernel_code.h"
+#include "app/dispatch/tracer_kernels.h"
 #include "app/surface/shared.h"
 #include "vk/commands.h"
 
@@ -14,16 +14,10 @@ namespace trisect {
 // For one thread at a time; the device must outlive it.
 class TileLists {
  public:
-  // In shaders/CMakeLists.txt. They share the descriptor set of the kernels that trace.
-  static constexpr const char* kProjectKernel = "project_subpatches";
-  static constexpr const char* kBinKernel = "bin_subpatches";
-  static constexpr const char* kSkyKernel = "fill_sky";
-
-  // constants: those of the kernels that trace. code: as spirv_of() takes it. subpatches: of the
-  // scene. width, band_rows: the largest band of the image in pixels, for which lists are made at a
-  // time. buffer_limit: bytes that the lists may take. Throws DeviceError if there is no memory.
-  TileLists(const gpu::Device& device, const std::vector<gpu::Specialization>& constants,
-            const KernelCode* code, uint32_t subpatches, uint32_t width, uint32_t band_rows,
+  // subpatches: of the scene. width, band_rows: the largest band of the image in pixels, for which
+  // lists are made at a time. buffer_limit: bytes that the lists may take. Throws DeviceError if
+  // there is no memory.
+  TileLists(const gpu::Device& device, uint32_t subpatches, uint32_t width, uint32_t band_rows,
             std::size_t buffer_limit);
 
   // For bands of another size. Throws DeviceError if there is no memory.
@@ -43,15 +37,17 @@ class TileLists {
            tiles_.order.size() + totals_.size() + counted_.size();
   }
 
-  // Records: projects all subpatches for the camera in the bound TraceParams. descriptors: a set of
-  // frame_interface() in which the buffers above are bound.
-  void project(gpu::Commands& commands, const gpu::DescriptorSet& descriptors) const;
+  // Records: projects all subpatches for the camera in the bound TraceParams. kernels: with those
+  // of tiles; descriptors: a set of frame_interface() in which the buffers above are bound.
+  void project(gpu::Commands& commands, const TracerKernels& kernels,
+               const gpu::DescriptorSet& descriptors) const;
 
   // Records: makes the lists of the band of `rows` rows from first_row on, and fills in the sky
   // where a list is empty. width: of the image in pixels, at most that of the constructor or of
   // resize().
-  void bin(gpu::Commands& commands, const gpu::DescriptorSet& descriptors, uint32_t width,
-           uint32_t first_row, uint32_t rows) const;
+  void bin(gpu::Commands& commands, const TracerKernels& kernels,
+           const gpu::DescriptorSet& descriptors, uint32_t width, uint32_t first_row,
+           uint32_t rows) const;
 
   // The number of tiles whose lists are not empty, in the band of the last submit with bin().
   [[nodiscard]] uint32_t tiles_seen() const { return counted().tiles; }
@@ -80,10 +76,6 @@ class TileLists {
   };
 
   uint32_t groups_;  // workgroups, of SUBPATCH_GROUP_SIZE subpatches each
-  gpu::Kernel project_kernel_;
-  gpu::Kernel count_kernel_;
-  gpu::Kernel sky_kernel_;
-  gpu::Kernel fill_kernel_;
   std::size_t buffer_limit_;
   gpu::Buffer projected_;
   Tiles tiles_;

@@ -5,13 +5,11 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
-#include "app/bake/subpatch_bounds.h"
 #include "app/base/error.h"
 #include "app/base/stopwatch.h"
 #include "app/buffers/buffer_limits.h"
-#include "app/buffers/kernels.h"
-#include "app/dispatch/accel.h"
 #include "app/dispatch/workgroups.h"
 #include "vk/result.h"
 
@@ -21,75 +19,13 @@ namespace {
 // Bytes moved between host and device at a time.
 constexpr std::size_t kStagingBytes = std::size_t{32} << 20U;
 
-std::vector<gpu::Specialization> constants_of(const gpu::Device& device, const BakedScene& scene,
-                                              const KernelChoice& choice) {
-  const bool eight_lanes = device.subgroups().certain_size() >= 8;
-  return {{CONSTANT_EIGHT_LANES, eight_lanes ? 1U : 0U},
-          {CONSTANT_SURFACE, scene.choice.surface},
-          {CONSTANT_SHELL, scene.choice.shell},
-          {CONSTANT_SOLVER, choice.solver},
-          {CONSTANT_AOVS, choice.writes_aovs() ? 1U : 0U},
-          {CONSTANT_COUNTS, choice.counts ? 1U : 0U},
-          {CONSTANT_DIVIDED, has_divided_patches(scene) ? 1U : 0U},
-          {CONSTANT_BALLS, choice.balls ? 1U : 0U},
-          {CONSTANT_NONSMOOTH, has_nonsmooth(scene) ? 1U : 0U}};
-}
-
 std::optional<TileLists> lists_for(const gpu::Device& device, const BakedScene& scene,
-                                   const KernelChoice& choice, const KernelCode* code,
-                                   uint32_t width, uint32_t band_rows, std::size_t buffer_limit) {
+                                   const KernelChoice& choice, uint32_t width, uint32_t band_rows,
+                                   std::size_t buffer_limit) {
   if (choice.accel != Accel::tiles) return std::nullopt;
-  if (device.subgroup_size() == 0) {
-    throw DeviceError(device.report().name +
-                      " lacks the subgroup operations of --accel tiles; use --accel bvh.");
-  }
-  return std::optional<TileLists>(std::in_place, device, constants_of(device, scene, choice), code,
+  return std::optional<TileLists>(std::in_place, device,
                                   static_cast<uint32_t>(scene.subpatches.size()), width, band_rows,
                                   buffer_limit);
-}
-
-// Throws DeviceError if the device cannot do what the acceleration needs.
-SceneBuffers::Needs needs_of(const gpu::Device& device, const KernelChoice& choice) {
-  using ByAddress = SceneBuffers::ByAddress;
-  const bool bvh = needs_bvh(choice.accel, choice.shadows);
-  switch (choice.accel) {
-    case Accel::rayquery:
-      if (!device.has_ray_query()) {
-        throw DeviceError(device.report().name +
-                          " lacks the ray queries of --accel rayquery; use --accel bvh.");
-      }
-      return {ByAddress::always, bvh};
-    case Accel::bvh:
-      return {device.loads_fast_by_address() ? ByAddress::always : ByAddress::if_large, bvh};
-    case Accel::tiles:
-      return {device.loads_fast_by_address() ? ByAddress::also : ByAddress::never, bvh};
-    default:
-      return {ByAddress::never, bvh};
-  }
-}
-
-std::vector<gpu::Kernel> kernels_for(const gpu::Device& device, const BakedScene& scene,
-                                     Accel accel, bool by_address,
-                                     const std::vector<gpu::Specialization>& constants,
-                                     const KernelCode* code) {
-  std::vector<gpu::Kernel> kernels;
-  for (const char* name : tracing_kernels(accel, scene.subpatches.size(),
-                                          device.subgroups().certain_size(), by_address)) {
-    kernels.push_back(make_kernel(device, name, constants, code));
-  }
-  return kernels;
-}
-
-// The kernels for shadow rays, which start at what the camera rays hit. They have no tile: with
-// tiles they traverse the BVH.
-std::vector<gpu::Kernel> shadow_kernels_for(const gpu::Device& device, const BakedScene& scene,
-                                            const KernelChoice& choice, bool by_address,
-                                            const KernelCode* code) {
-  if (!choice.shadows) return {};
-  std::vector<gpu::Specialization> constants = constants_of(device, scene, choice);
-  constants.push_back({CONSTANT_SHADOWS, 1U});
-  const Accel accel = choice.accel == Accel::tiles ? Accel::bvh : choice.accel;
-  return kernels_for(device, scene, accel, by_address, constants, code);
 }
 
 // The most workgroups of a part of a band: those for whose rays the queue has places.
@@ -113,6 +49,16 @@ VulkanTracer::ImageBuffers::ImageBuffers(const gpu::Device& device, uint32_t wid
 VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, uint32_t width,
                            uint32_t height, const KernelChoice& choice, std::size_t buffer_limit,
                            const KernelCode* code)
+    : VulkanTracer(device, scene, width, height, choice, buffer_limit, code, nullptr) {}
+
+VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, uint32_t width,
+                           uint32_t height, const KernelChoice& choice,
+                           std::shared_ptr<const TracerKernels> kernels)
+    : VulkanTracer(device, scene, width, height, choice, kNoLimit, nullptr, std::move(kernels)) {}
+
+VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, uint32_t width,
+                           uint32_t height, const KernelChoice& choice, std::size_t buffer_limit,
+                           const KernelCode* code, std::shared_ptr<const TracerKernels> kernels)
     : device_(device),
       width_(width),
       height_(height),
@@ -120,19 +66,20 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
       writes_aovs_(choice.writes_aovs()),
       buffer_limit_(std::min<std::size_t>(buffer_limit, device.limits().maxStorageBufferRange)),
       band_rows_(rows_in_a_band(device.report().name, buffer_limit_, width, height, writes_aovs_)),
-      tiles_(lists_for(device, scene, choice, code, width, band_rows_, buffer_limit_)),
+      tiles_(lists_for(device, scene, choice, width, band_rows_, buffer_limit_)),
       scene_(device, scene, buffer_limit_, needs_of(device, choice)),
-      kernels_(kernels_for(device, scene, choice.accel, scene_.by_address(),
-                           constants_of(device, scene, choice), code)),
-      shadow_kernels_(shadow_kernels_for(device, scene, choice, scene_.by_address(), code)),
-      begin_kernel_(make_kernel(device, kBeginKernel, {}, code)),
-      next_kernel_(make_kernel(device, kNextKernel, {}, code)),
+      kernels_(kernels ? std::move(kernels)
+                       : std::make_shared<const TracerKernels>(
+                             device, plan_kernels(device, scene, choice, buffer_limit_), code)),
       commands_(device),
       staging_(device, kStagingBytes),
       params_(device, sizeof(TraceParams), gpu::Memory::device, "trace parameters"),
       image_(device, width, band_rows_, writes_aovs_, buffer_limit_),
       unused_(device, sizeof(vec4), gpu::Memory::device, "unused"),
       descriptors_(bind()) {
+  if (kernels_->plan() != plan_kernels(device, scene, choice, buffer_limit_)) {
+    throw std::logic_error("the kernels are not for this scene and choice");
+  }
   const Stopwatch watch;
   if (tiles_ && scene_.by_address()) scene_.set_projected(tiles_->projected());
   scene_.upload(staging_, commands_, scene);
@@ -144,7 +91,7 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
 
 gpu::DescriptorSet VulkanTracer::bind() const {
   return {device_,
-          kernels_[0],
+          kernels_->begin(),
           {&params_, &scene_.triangles(), &image_.colors, &image_.aovs, &scene_.subpatches(),
            &image_.queue.paused(), &image_.queue.queued(), tiles_ ? &tiles_->projected() : &unused_,
            tiles_ ? &tiles_->lists() : &unused_, tiles_ ? &tiles_->subpatches() : &unused_,
@@ -218,7 +165,7 @@ std::optional<double> VulkanTracer::render_band(const TraceParams& params, uint3
                                                 uint32_t rows, const KeepGoing& keep_going) {
   const GroupRange all = groups_of_band(params.width, first_row, rows);
   const GroupRange listed{0, all.end - all.begin};
-  BandParts band(tiles_ ? listed : all, shadow_kernels_.empty() ? GroupRange{0, 0} : all);
+  BandParts band(tiles_ ? listed : all, kernels_->shadow_rays().empty() ? GroupRange{0, 0} : all);
   bool begins_frame = first_row == 0;
   bool has_lists = !tiles_.has_value();
   double gpu_ms = 0.0;
@@ -226,7 +173,7 @@ std::optional<double> VulkanTracer::render_band(const TraceParams& params, uint3
     commands_.begin();
     if (begins_frame) record_frame(params);
     begins_frame = false;
-    if (!has_lists) tiles_->bin(commands_, descriptors_, params.width, first_row, rows);
+    if (!has_lists) tiles_->bin(commands_, *kernels_, descriptors_, params.width, first_row, rows);
     commands_.mark();
     image_.queue.begin_parts(commands_);
     std::vector<BandParts::Part> parts =
@@ -262,7 +209,7 @@ std::optional<double> VulkanTracer::render_band(const TraceParams& params, uint3
 void VulkanTracer::record_frame(const TraceParams& params) {
   commands_.update(params_, 0, std::as_bytes(std::span(&params, 1)));
   image_.queue.begin_frame(commands_);
-  if (tiles_) tiles_->project(commands_, descriptors_);
+  if (tiles_) tiles_->project(commands_, *kernels_, descriptors_);
 }
 
 void VulkanTracer::record_part(const BandParts::Part& part, uint32_t first_row, uint32_t rows) {
@@ -276,11 +223,11 @@ void VulkanTracer::record_part(const BandParts::Part& part, uint32_t first_row, 
                       .steps = image_.queue.steps(),
                       .half_queue = image_.queue.rays()};
   const std::span<const std::byte> bytes = std::as_bytes(std::span(&push, 1));
-  commands_.dispatch(begin_kernel_, descriptors_, bytes, 1);
+  commands_.dispatch(kernels_->begin(), descriptors_, bytes, 1);
   for (const gpu::Kernel& kernel : kernels_of(part)) {
     commands_.dispatch_indirect(kernel, descriptors_, bytes, image_.queue.queued(),
                                 offsetof(QueueState, groups_x));
-    commands_.dispatch(next_kernel_, descriptors_, bytes, 1);
+    commands_.dispatch(kernels_->next(), descriptors_, bytes, 1);
   }
 }
 
@@ -296,7 +243,7 @@ std::optional<double> VulkanTracer::finish_rays(const BandParts::Part& part, uin
     image_.queue.begin_parts(commands_);
     commands_.dispatch(kernels_of(part).back(), descriptors_, bytes,
                        (state.now.resumed + kGroupRays - 1) / kGroupRays);
-    commands_.dispatch(next_kernel_, descriptors_, bytes, 1);
+    commands_.dispatch(kernels_->next(), descriptors_, bytes, 1);
     image_.queue.read_state(commands_);
     gpu_ms += commands_.submit_and_wait();
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "app/dispatch/ray_queue.h"
 #include "app/dispatch/submit_budget.h"
 #include "app/dispatch/tile_lists.h"
+#include "app/dispatch/tracer_kernels.h"
 #include "app/frame/frame.h"
 #include "app/frame/frame_time.h"
 #include "app/surface/shared.h"
@@ -26,11 +28,7 @@ namespace trisect {
 // For one thread at a time. The device must outlive the tracer; the scene need not.
 class VulkanTracer {
  public:
-  // In shaders/CMakeLists.txt: by which a frame goes on from pass to pass without the host.
-  static constexpr const char* kBeginKernel = "begin_part";
-  static constexpr const char* kNextKernel = "next_pass";
-
-  // Uploads the scene, its BVH only if the choice needs it, and compiles the kernels. width,
+  // Uploads the scene, its BVH only if the choice needs it, and makes the kernels. width,
   // height: the largest frame in pixels. choice: accelerations and shadows that need the BVH need a
   // scene that has one. buffer_limit: the most bytes of a buffer, if less than the device's own
   // limit. code: as spirv_of() takes it. Throws DeviceError if the device cannot hold the scene or
@@ -38,6 +36,11 @@ class VulkanTracer {
   VulkanTracer(const gpu::Device& device, const BakedScene& scene, uint32_t width, uint32_t height,
                const KernelChoice& choice, std::size_t buffer_limit = kNoLimit,
                const KernelCode* code = nullptr);
+
+  // The same with kernels that are there: of plan_kernels() of this device, scene and choice,
+  // without a limit of buffers.
+  VulkanTracer(const gpu::Device& device, const BakedScene& scene, uint32_t width, uint32_t height,
+               const KernelChoice& choice, std::shared_ptr<const TracerKernels> kernels);
 
   // Renders into `frame`, which gets the size that `params` says, in submits of bounded time: in
   // one if that is enough. An image that the output buffers do not hold is rendered in bands of
@@ -91,12 +94,16 @@ class VulkanTracer {
     RayQueue queue;
   };
 
+  // kernels: null to make them.
+  VulkanTracer(const gpu::Device& device, const BakedScene& scene, uint32_t width, uint32_t height,
+               const KernelChoice& choice, std::size_t buffer_limit, const KernelCode* code,
+               std::shared_ptr<const TracerKernels> kernels);
   [[nodiscard]] gpu::DescriptorSet bind() const;
   void download_band(uint32_t first_row, uint32_t rows, Frame& frame);
   // Sets what the frame has counted of the work of the last frame.
   void count_work(Frame& frame) const;
   [[nodiscard]] std::span<const gpu::Kernel> kernels_of(const BandParts::Part& part) const {
-    return part.shadows ? shadow_kernels_ : kernels_;
+    return part.shadows ? kernels_->shadow_rays() : kernels_->camera_rays();
   }
   // Traces a band in as few submits as the budget allows; with the first one of a frame goes what
   // the frame begins with. Returns milliseconds on the device, or nothing if keep_going stopped it.
@@ -119,10 +126,7 @@ class VulkanTracer {
   uint32_t band_rows_;
   std::optional<TileLists> tiles_;
   SceneBuffers scene_;
-  std::vector<gpu::Kernel> kernels_;         // of tracing_kernels(), for camera rays
-  std::vector<gpu::Kernel> shadow_kernels_;  // the same for shadow rays
-  gpu::Kernel begin_kernel_;
-  gpu::Kernel next_kernel_;
+  std::shared_ptr<const TracerKernels> kernels_;
   gpu::Commands commands_;
   gpu::Staging staging_;
   gpu::Buffer params_;

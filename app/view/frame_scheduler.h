@@ -15,8 +15,8 @@ namespace trisect::view {
 // of the window, then to several samples per pixel. After that nothing is traced.
 //
 // The caller asks plan() what to trace, calls begin(), traces, and reports how that ended by one of
-// moving_frame_done(), refinement_done(), refinement_stopped() and failed(). A content whose frame
-// failed is not tried again until the content changes.
+// moving_frame_done(), refinement_done(), refinement_stopped(), failed() and postponed(). A content
+// whose frame failed is not tried again until the content changes.
 //
 // No function waits or reads a clock. Not thread safe.
 class FrameScheduler {
@@ -58,6 +58,8 @@ class FrameScheduler {
   // frame to show. Without one the content has to be traced anew.
   void refinement_stopped(bool frame_is_left);
   void failed(bool frame_is_left);
+  // What the frame needs is not there yet; it will be tried again.
+  void postponed() { failed_.reset(); }
 
   // Time that a moving frame of this scale took to trace and for everything else, in milliseconds.
   void record_cost(double scale, double trace_ms, double other_ms) {

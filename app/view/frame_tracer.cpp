@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/base/error.h"
 #include "app/base/stopwatch.h"
@@ -35,16 +36,31 @@ uint32_t FrameTracer::samples_at_rest() const {
   return side;
 }
 
-FrameTracer::Target FrameTracer::choose_target(const FrameContent& wanted, double scale) {
+std::optional<FrameTracer::Target> FrameTracer::choose_target(const FrameContent& wanted,
+                                                              double scale) {
+  const bool was_waiting = std::exchange(is_waiting_, false);
   const KernelChoice reduced =
       state_.kernel_choice(std::max(wanted.width / kWindowOverMovingFrame, 1U),
                            std::max(wanted.height / kWindowOverMovingFrame, 1U));
-  const bool is_apart = scale < 1.0 && reduced != wanted.kernels;
-  const KernelChoice& kernels = is_apart ? reduced : wanted.kernels;
-  Picture& picture = is_apart ? moving_ : still_;
-  const bool is_new = picture.use(state_.model.shared_scene(), kernels, state_.kernels.code());
-  state_.facts.accel = accel_name(kernels.accel);
-  return {picture, is_new};
+  const auto use = [&](Picture& picture, const KernelChoice& kernels) -> std::optional<Target> {
+    const Picture::Use used =
+        picture.use(state_.model.shared_scene(), kernels, state_.kernels.code());
+    if (used == Picture::Use::soon) return std::nullopt;
+    state_.facts.accel = accel_name(kernels.accel);
+    return Target{&picture, used == Picture::Use::anew};
+  };
+  std::optional<Target> target;
+  if (scale < 1.0 && reduced != wanted.kernels) target = use(moving_, reduced);
+  // The refinement comes next.
+  if (target) still_.prepare(state_.model.shared_scene(), wanted.kernels, state_.kernels.code());
+  // Kernels that are there are better than the best ones that are not.
+  if (!target) target = use(still_, wanted.kernels);
+  if (target) return target;
+  is_waiting_ = true;
+  scheduler_.postponed();
+  // The panel tells about it.
+  if (!was_waiting) scheduler_.request_draws(FrameScheduler::kDrawsForPanel);
+  return std::nullopt;
 }
 
 FrameTracer::Result FrameTracer::trace(const KeepGoing& may_refine, bool has_shown_a_frame) {
@@ -74,7 +90,7 @@ FrameTracer::Result FrameTracer::trace(const KeepGoing& may_refine, bool has_sho
   return result;
 }
 
-// Nothing if the user interrupted the program.
+// Nothing if the user interrupted the program, or kernels are being made.
 std::optional<MovingFrame> FrameTracer::trace_moving(const FrameContent& wanted,
                                                      const FrameScheduler::Plan& plan) {
   scheduler_.begin(plan, wanted);
@@ -84,19 +100,20 @@ std::optional<MovingFrame> FrameTracer::trace_moving(const FrameContent& wanted,
   const auto scaled = [&](uint32_t pixels) {
     return std::max(1U, static_cast<uint32_t>(std::lround(pixels * scale)));
   };
-  const Target target = choose_target(wanted, scale);
-  const Picture& picture = target.picture;
+  const std::optional<Target> target = choose_target(wanted, scale);
+  if (!target) return std::nullopt;
+  Picture& picture = *target->picture;
   while (scale > Pacer::kLeast && !picture.can_hold(scaled(wanted.width), scaled(wanted.height))) {
     scale *= 0.5;
   }
   // Input does not stop such a frame, or a slow device would show nothing while something moves.
   const std::optional<double> ms =
-      trace_into(target.picture, scaled(wanted.width), scaled(wanted.height), {});
+      trace_into(picture, scaled(wanted.width), scaled(wanted.height), {});
   if (!ms) return std::nullopt;
   scheduler_.moving_frame_done(wanted, picture.width() == wanted.width, Clock::now());
   const double part = static_cast<double>(picture.width()) * picture.height() /
                       (static_cast<double>(wanted.width) * wanted.height);
-  return MovingFrame{part, *ms, target.is_new};
+  return MovingFrame{part, *ms, target->is_new};
 }
 
 // False if it was stopped.
@@ -105,8 +122,9 @@ bool FrameTracer::refine(const FrameContent& wanted, const FrameScheduler::Plan&
   screen_.wait();
   scheduler_.begin(plan, wanted);
   const uint32_t side = plan.samples_across;
-  Picture& picture = choose_target(wanted, 1.0).picture;
-  if (!trace_into(picture, wanted.width * side, wanted.height * side, may_refine)) {
+  const std::optional<Target> target = choose_target(wanted, 1.0);
+  if (!target) return true;
+  if (!trace_into(*target->picture, wanted.width * side, wanted.height * side, may_refine)) {
     // If the moving frame is a picture of its own, it is still there.
     scheduler_.refinement_stopped(front_->is_there());
     return false;
@@ -153,7 +171,9 @@ void FrameTracer::count_work() {
 void FrameTracer::prepare(const std::shared_ptr<const KernelCode>& code) {
   screen_.wait();
   const KernelChoice kernels = state_.kernel_choice(window_.width(), window_.height());
-  still_.use(state_.model.shared_scene(), kernels, code);
+  while (still_.use(state_.model.shared_scene(), kernels, code) == Picture::Use::soon) {
+    still_.wait();
+  }
 }
 
 }  // namespace trisect::view

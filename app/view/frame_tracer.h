@@ -48,8 +48,13 @@ class FrameTracer {
   // one sample for each pixel of the window.
   [[nodiscard]] uint32_t samples_at_rest() const;
 
-  // Makes sure that the device takes these kernels for the present scene. Throws DeviceError.
+  // Makes sure that the device takes these kernels for the present scene; waits for them. Throws
+  // DeviceError.
   void prepare(const std::shared_ptr<const KernelCode>& code);
+
+  // Whether the last frame that was due has not been traced yet, because the device makes its
+  // kernels.
+  [[nodiscard]] bool is_waiting() const { return is_waiting_; }
 
   // The picture with the frame that was traced last, if it still has one.
   [[nodiscard]] const Picture& front() const { return *front_; }
@@ -57,11 +62,12 @@ class FrameTracer {
  private:
   // A picture and what traces it.
   struct Target {
-    Picture& picture;
+    Picture* picture;
     bool is_new;  // scene or kernels are new to it
   };
 
-  Target choose_target(const FrameContent& wanted, double scale);
+  // Nothing if the device still makes the kernels.
+  std::optional<Target> choose_target(const FrameContent& wanted, double scale);
   std::optional<MovingFrame> trace_moving(const FrameContent& wanted,
                                           const FrameScheduler::Plan& plan);
   bool refine(const FrameContent& wanted, const FrameScheduler::Plan& plan,
@@ -78,6 +84,7 @@ class FrameTracer {
   Picture still_;   // for frames of at least the window's pixels
   Picture moving_;  // for frames of fewer pixels, where other kernels are faster for those
   Picture* front_ = &still_;
+  bool is_waiting_ = false;
 };
 
 }  // namespace trisect::view

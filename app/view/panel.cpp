@@ -64,6 +64,8 @@ void choose_model(const Settings& settings, const Facts& facts, Requests& reques
   }
   if (facts.loading) {
     text("loading ...");
+  } else if (facts.making_kernels) {
+    text("making kernels ...");
   } else {
     text(facts.model);
   }
@@ -125,8 +127,10 @@ void choose_output(Settings& settings, const Facts& facts, Requests& requests) {
 
 void show_timings(Settings& settings, const Facts& facts) {
   text(fmt::format("{}\n{}", facts.device, facts.driver));
-  text(fmt::format("{}x{} rays by {}, {:.1f} ms", facts.frame_width, facts.frame_height,
-                   facts.accel, facts.trace_ms));
+  if (facts.frame_width > 0) {
+    text(fmt::format("{}x{} rays by {}, {:.1f} ms", facts.frame_width, facts.frame_height,
+                     facts.accel, facts.trace_ms));
+  }
   if (!facts.frame_ms.empty()) {
     ImGui::PlotLines("ms a frame", facts.frame_ms.data(), static_cast<int>(facts.frame_ms.size()),
                      0, nullptr, 0.0F, 2.0F * static_cast<float>(settings.frame_ms),

@@ -49,6 +49,7 @@ struct Facts {
   std::string model;       // about the model, one line
   std::string message;     // what was done last, or why it failed
   bool loading = false;
+  bool making_kernels = false;
   std::vector<std::string> models;  // files to choose from
   std::vector<std::string> recent;  // files that were opened last
   std::vector<float> frame_ms;      // of the last moving frames

@@ -1,6 +1,7 @@
 #include "app/view/picture.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "app/buffers/buffer_limits.h"
@@ -14,17 +15,40 @@ constexpr uint32_t kFirstSide = 64;
 
 }  // namespace
 
-bool Picture::use(const std::shared_ptr<const BakedScene>& scene, const KernelChoice& choice,
-                  const std::shared_ptr<const KernelCode>& code) {
-  if (tracer_ && scene == scene_ && choice == choice_ && code == code_) return false;
-  auto tracer = std::make_unique<VulkanTracer>(device_, *scene, kFirstSide, kFirstSide, choice,
-                                               kNoLimit, code.get());
-  tracer_ = std::move(tracer);
+bool Picture::prepare(const std::shared_ptr<const BakedScene>& scene, const KernelChoice& choice,
+                      const std::shared_ptr<const KernelCode>& code) {
+  KernelPlan plan = plan_kernels(device_, *scene, choice, device_.limits().maxStorageBufferRange);
+  if (coming_ && coming_->wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+    std::future<CodeKernels> ready = std::move(*coming_);
+    coming_.reset();
+    kernels_ = ready.get();
+  }
+  if (kernels_.kernels && kernels_.kernels->plan() == plan && kernels_.code == code) return true;
+  // If others are being made, they are waited for first.
+  if (!coming_) {
+    coming_ = std::async(std::launch::async, [this, plan = std::move(plan), code] {
+      return CodeKernels{code, std::make_shared<const TracerKernels>(device_, plan, code.get())};
+    });
+  }
+  return false;
+}
+
+Picture::Use Picture::use(const std::shared_ptr<const BakedScene>& scene,
+                          const KernelChoice& choice,
+                          const std::shared_ptr<const KernelCode>& code) {
+  if (tracer_ && scene == scene_ && choice == choice_ && code == code_) return Use::as_before;
+  if (!prepare(scene, choice, code)) return Use::soon;
+  tracer_ = std::make_unique<VulkanTracer>(device_, *scene, kFirstSide, kFirstSide, choice,
+                                           kernels_.kernels);
   scene_ = scene;
   choice_ = choice;
   code_ = code;
   params_.reset();
-  return true;
+  return Use::anew;
+}
+
+void Picture::wait() const {
+  if (coming_) coming_->wait();
 }
 
 bool Picture::can_hold(uint32_t width, uint32_t height) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <future>
 #include <memory>
 #include <optional>
 
@@ -13,16 +14,30 @@
 namespace trisect::view {
 
 // A tracer and the frame that it traced last. use() and trace() must not be called while the device
-// still draws the frame. Not thread safe.
+// still draws the frame. For one thread; kernels are made in another.
 class Picture {
  public:
   explicit Picture(const gpu::Device& device) : device_(device) {}
 
-  // Frames show this scene from now on and are traced by these kernels: those in `code`, or the
-  // built-in ones if it is null. Returns whether scene, choice or code are new; the last frame is
-  // lost then. Throws DeviceError, and stays as it was, if the device cannot hold them.
-  bool use(const std::shared_ptr<const BakedScene>& scene, const KernelChoice& choice,
-           const std::shared_ptr<const KernelCode>& code);
+  enum class Use {
+    as_before,
+    anew,  // scene, choice or code are new, and the last frame is lost
+    soon,  // kernels are being made: until they are there, the picture is as it was
+  };
+
+  // Frames are to show this scene and to be traced by these kernels: those in `code`, or the
+  // built-in ones if it is null. Throws DeviceError, and stays as it was, if the device cannot hold
+  // them.
+  Use use(const std::shared_ptr<const BakedScene>& scene, const KernelChoice& choice,
+          const std::shared_ptr<const KernelCode>& code);
+
+  // Has the kernels made that use() needs for this, and returns whether they are there. Throws
+  // DeviceError if the device could not make them.
+  bool prepare(const std::shared_ptr<const BakedScene>& scene, const KernelChoice& choice,
+               const std::shared_ptr<const KernelCode>& code);
+
+  // Returns once no kernels are being made.
+  void wait() const;
 
   // Whether a frame of that size in pixels fits into the device's buffers.
   [[nodiscard]] bool can_hold(uint32_t width, uint32_t height) const;
@@ -50,6 +65,13 @@ class Picture {
   KernelChoice choice_;
   std::shared_ptr<const KernelCode> code_;
   std::unique_ptr<VulkanTracer> tracer_;
+  // Kernels and what they are made from.
+  struct CodeKernels {
+    std::shared_ptr<const KernelCode> code;
+    std::shared_ptr<const TracerKernels> kernels;
+  };
+  CodeKernels kernels_;
+  std::optional<std::future<CodeKernels>> coming_;
   std::optional<TraceParams> params_;  // of the frame
 };
 

@@ -15,9 +15,9 @@ struct ScriptStep {
 // Reads lines "SECONDS COMMAND ARGUMENT", in any order of time; empty lines and those that begin
 // with # are ignored. Commands: `hold KEY SECONDS` and `press KEY` (a letter, a digit, space,
 // shift, tab, escape, f5 or f12), `flags FLAGS` (of `trisect render`), `shown NAME`, `size WxH` (of
-// the window), `open FILE`, `save FILE`, `error`, `quit`. Returns the steps in the order of time;
-// those of the same time stay in the order of the file. Throws InputError, naming the file and the
-// line, for any other line.
+// the window), `open FILE`, `save FILE`, `error`, `quit`. Steps wait while kernels are made.
+// Returns the steps in the order of time; those of the same time stay in the order of the file.
+// Throws InputError, naming the file and the line, for any other line.
 std::vector<ScriptStep> read_script(const std::string& file);
 
 // GLFW_KEY_... of the key with that name; -1 if there is none.

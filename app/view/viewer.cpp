@@ -66,6 +66,7 @@ double Viewer::seconds_to_wait() const {
   if (is_minimised()) return 0.05;
   const Clock::time_point now = Clock::now();
   const bool is_walking = steps_of(walk_keys(now)) != glm::dvec3(0.0);
+  if (tracer_.is_waiting()) return 0.01;
   if (scheduler_.needs_draw() || is_walking || options_.frames) return 0.0;
   // Results of other threads raise no event: they are polled.
   if (state_.model.is_loading()) return 0.01;
@@ -86,8 +87,9 @@ void Viewer::take_input() {
 }
 
 void Viewer::follow_script() {
-  // By a new time for each step, as a step may take long.
-  while (not_interrupted() && script_.run_next(commands_, Clock::now())) {
+  // By a new time for each step, as a step may take long. What a step asked for is shown before the
+  // next one asks for something else.
+  while (not_interrupted() && !tracer_.is_waiting() && script_.run_next(commands_, Clock::now())) {
     scheduler_.request_draws(FrameScheduler::kDrawsForPanel);
   }
 }
@@ -142,6 +144,7 @@ void Viewer::update_panel() {
   PanelLayer::begin();
   Facts& facts = state_.facts;
   facts.save_file = commands_.next_file();
+  facts.making_kernels = tracer_.is_waiting();
   facts.error_progress = errors_.progress();
   facts.error = shows_errors() ? errors_.map().summary : "";
   if (facts.error.empty() && errors_.has_map() && state_.settings.shown == SHOWN_ERROR) {
@@ -198,7 +201,8 @@ void Viewer::show() {
     return;
   }
   scheduler_.frame_drawn();
-  if (!state_.model.is_loaded()) return;
+  // What waits for kernels is not the frame that is wanted.
+  if (!state_.model.is_loaded() || tracer_.is_waiting()) return;
   ++statistics_.frames;
   if (script_.has_started() || statistics_.frames < kFramesToStart) return;
   script_.start(Clock::now());

@@ -9,8 +9,7 @@
 
 #include "app/dispatch/accel.h"
 #include "app/dispatch/ray_caster.h"
-#include "app/dispatch/tile_lists.h"
-#include "app/dispatch/vulkan_tracer.h"
+#include "app/dispatch/tracer_kernels.h"
 
 namespace trisect {
 namespace {
@@ -24,9 +23,8 @@ std::set<std::string> listed(Interface interface) {
 }
 
 TEST(Kernels, OfFramesAreThoseThatTheTracerAsksFor) {
-  std::set<std::string> asked{TileLists::kProjectKernel, TileLists::kBinKernel,
-                              TileLists::kSkyKernel, VulkanTracer::kBeginKernel,
-                              VulkanTracer::kNextKernel};
+  std::set<std::string> asked{TracerKernels::kProject, TracerKernels::kBin, TracerKernels::kSky,
+                              TracerKernels::kBegin, TracerKernels::kNext};
   for (const Accel accel : {Accel::list, Accel::tiles, Accel::bvh, Accel::rayquery}) {
     for (const uint32_t subgroup_size : {0U, 4U, 8U, 32U}) {
       for (const bool by_address : {false, true}) {

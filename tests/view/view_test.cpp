@@ -221,9 +221,13 @@ TEST_F(View, IsMinimisedRestoredAndClosed) {
     return view("0 press tab\n120 quit\n", {}, test::asset_path("cube"));
   });
   const std::string window = display_.window_called(name);
+  // Refined: as it is for two seconds.
   std::string before;
-  wait_until(
-      [&] { return std::exchange(before, display_.pixel(window, 160, 120, 100)) == before; });
+  int same = 0;
+  wait_until([&] {
+    same = std::exchange(before, display_.pixel(window, 160, 120, 100)) == before ? same + 1 : 0;
+    return same == 8;
+  });
   display_.xdotool("windowminimize " + window);
   wait_until([&] { return !display_.shows(name); });
   EXPECT_FALSE(display_.shows(name));
