@@ -67,7 +67,7 @@ uint places_met(BoxRay ray, uint node, float end) {
   vec3 origin = vec3(at.origin_x, at.origin_y, at.origin_z);
   vec3 grid_step = vec3(at.step_x, at.step_y, at.step_z);
   uint met = 0u;
-  for (uint k = 0u; k < 8u; ++k) {
+  for (uint k = 0u; k < BVH_CHILDREN; ++k) {
     if (may_meet_child(ray, origin, grid_step, at.boxes[k], end)) met |= 1u << k;
   }
   met &= at.children;

@@ -4,7 +4,6 @@
 // 2006, "Geometric and arithmetic culling methods for entire ray packets"). The eight children of a node are tested at
 // once, each by one lane of the subgroup, which therefore needs at least eight.
 
-const uint CHILDREN = 8u;
 const uint SUBPATCH_WORDS = 6u;
 // Bytes that one lane reads in load_uniform, and of a node to test its children.
 const uint LANE_SHARE_BYTES = 16u + TRIANGLE_SHARE_BYTES;
@@ -79,20 +78,20 @@ struct PacketTraversal {
 // For each subgroup, a stack of the nodes above the current one that have children to visit: the node's number times 256,
 // plus its to_visit. In shared memory, because drivers turn a private array with a variable index into a ladder of branches.
 // One lane writes what all of them read.
-shared uint subgroup_stacks[TILE_SIZE * TILE_SIZE / CHILDREN][BVH_LEVELS];
+shared uint subgroup_stacks[TILE_SIZE * TILE_SIZE / BVH_CHILDREN][BVH_LEVELS];
 
 // Bit k: the packet may meet the node's child at place k before `end`. Each lane tests one child; one of two lanes loads the
 // grid's origin and the other its steps, for the reason given in broadcast.glsl.
 uint packet_places_met(Packet packet, uint node, float end) {
   uint lane = gl_SubgroupInvocationID;
-  uint child = (lane & (CHILDREN - 1u)) ^ packet.octant;
+  uint child = (lane & (BVH_CHILDREN - 1u)) ^ packet.octant;
   uvec4 loaded = bvh_words[node * NODE_WORDS + (lane & 1u)];
   vec3 origin = uintBitsToFloat(subgroupBroadcast(loaded, 0).xyz);
   uvec4 grid_step = subgroupBroadcast(loaded, 1);
   uvec2 box = bvh[node].boxes[child];
   vec3 lo = origin + planes_of(box.x) * uintBitsToFloat(grid_step.xyz);
   vec3 hi = origin + planes_of(box.y) * uintBitsToFloat(grid_step.xyz);
-  bool met = lane < CHILDREN && (grid_step.w >> child & 1u) != 0u && may_meet_box(packet, lo, hi, end);
+  bool met = lane < BVH_CHILDREN && (grid_step.w >> child & 1u) != 0u && may_meet_box(packet, lo, hi, end);
   return subgroupBallot(met).x;
 }
 
@@ -121,8 +120,8 @@ uint next_packet_candidate(Packet packet, PixelRay ray, float z, inout PacketTra
     if (up && !ended) {
       --traversal.stack_height;
       uint top = subgroup_stacks[gl_SubgroupID][traversal.stack_height];
-      traversal.node = top >> CHILDREN;
-      traversal.to_visit = top & ((1u << CHILDREN) - 1u);
+      traversal.node = top >> BVH_CHILDREN;
+      traversal.to_visit = top & ((1u << BVH_CHILDREN) - 1u);
     }
     if (!ended) {
       uint k = uint(findLSB(traversal.to_visit));
@@ -140,7 +139,7 @@ uint next_packet_candidate(Packet packet, PixelRay ray, float z, inout PacketTra
         if (traversal.to_visit != 0u) {
           if (subgroupElect()) {
             subgroup_stacks[gl_SubgroupID][traversal.stack_height] =
-                (traversal.node << CHILDREN) + traversal.to_visit;
+                (traversal.node << BVH_CHILDREN) + traversal.to_visit;
           }
           subgroupMemoryBarrierShared();
           ++traversal.stack_height;

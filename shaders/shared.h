@@ -286,6 +286,7 @@ const float BVH_SLACK = 0.00000095367431640625;  // 2^-20
 // Most levels of the tree, and most nodes, as a packet's stack has 24 bits for a node's number.
 const int BVH_LEVELS = 32;
 const uint BVH_MOST_NODES = 16777216u;
+const uint BVH_CHILDREN = 8u;  // of a node at most
 const uint BVH_PLACES = 16u;
 const uint BVH_PLANE_BITS = 10u;
 // Values of BvhNode::links and parent.

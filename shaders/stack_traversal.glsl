@@ -1,8 +1,8 @@
 // Traversal of the scene's BVH by one ray with a stack, which spares it the returns to parents of bvh_candidates.glsl. A
 // traversal cannot pause: where it takes too long it gives up.
 
-// The nodes above the current one that have children to visit: a node's number times 256, plus bit k if the child at place k
-// is to be visited. Without an array, which drivers would index by branches.
+// The nodes above the current one that have children to visit. Bit k of an entry: the child at place k is to be visited; the
+// bits from BVH_CHILDREN on are the node's number. Without an array, which drivers would index by branches.
 struct NodeStack {
   uvec4 top;  // the last one pushed comes first
   uvec4 below;
@@ -12,13 +12,13 @@ const uint STACK_ENTRIES = 8u;
 
 void push_node(uint node, uint to_visit, inout NodeStack stack) {
   stack.below = uvec4(stack.top.w, stack.below.xyz);
-  stack.top = uvec4(node << 8 | to_visit, stack.top.xyz);
+  stack.top = uvec4(node << BVH_CHILDREN | to_visit, stack.top.xyz);
   ++stack.height;
 }
 
 void pop_node(out uint node, out uint to_visit, inout NodeStack stack) {
-  node = stack.top.x >> 8;
-  to_visit = stack.top.x & 255u;
+  node = stack.top.x >> BVH_CHILDREN;
+  to_visit = stack.top.x & ((1u << BVH_CHILDREN) - 1u);
   stack.top = uvec4(stack.top.yzw, stack.below.x);
   stack.below = uvec4(stack.below.yzw, 0u);
   --stack.height;
@@ -33,11 +33,12 @@ struct StackTraversal {
 };
 
 // At the root. end: the greatest distance along the ray.
-StackTraversal begin_stack_traversal(PixelRay ray, float end) {
+StackTraversal begin_stack_traversal(PixelRay ray, float end, inout Traversal traversal) {
   StackTraversal at;
   at.ray = box_ray(ray);
   at.node = 0u;
   at.to_visit = places_met(at.ray, 0u, end);
+  if (COUNTS) traversal.counts.bytes += BVH_TEST_BYTES;
   at.stack.top = uvec4(0u);
   at.stack.below = uvec4(0u);
   at.stack.height = 0u;

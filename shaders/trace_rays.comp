@@ -26,7 +26,7 @@ void main() {
   precise PixelRay ray = ray_of(pixel);
   precise Traversal traversal = begin_pixel_traversal(pixel, int(state.now.steps));
   Pending pending = nothing_pending();
-  StackTraversal at = begin_stack_traversal(ray, ray.frame.stretch * traversal.hit.z);
+  StackTraversal at = begin_stack_traversal(ray, ray.frame.stretch * traversal.hit.z, traversal);
   uint subpatch;
   do {
     subpatch = next_candidate(ray.frame.stretch * traversal.hit.z, at, traversal);

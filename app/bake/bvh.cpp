@@ -17,16 +17,14 @@
 namespace trisect {
 namespace {
 
-constexpr uint32_t kChildren = 8;
-
 // The tree as Embree's builder makes it, in its own memory: a leaf is a Node, an inner node a
 // Branch.
 struct Node {
   uint32_t subpatch = NO_TRIANGLE;  // index; NO_TRIANGLE marks a branch
 };
 struct Branch : Node {
-  std::array<Node*, kChildren> children{};
-  std::array<SubpatchBox, kChildren> boxes{};
+  std::array<Node*, BVH_CHILDREN> children{};
+  std::array<SubpatchBox, BVH_CHILDREN> boxes{};
 };
 
 template <typename T>
@@ -84,22 +82,22 @@ SubpatchBox no_box() {
 // The child for each of the eight octants, NO_TRIANGLE where there is none. Greedy: of the children
 // and octants that are left the pair is matched for which the child lies farthest on the octant's
 // side.
-std::array<uint32_t, kChildren> octants_of(const Branch& branch) {
+std::array<uint32_t, BVH_CHILDREN> octants_of(const Branch& branch) {
   SubpatchBox all = no_box();
-  for (uint32_t k = 0; k < kChildren; ++k) {
+  for (uint32_t k = 0; k < BVH_CHILDREN; ++k) {
     if (branch.children[k] != nullptr) all = around(all, branch.boxes[k]);
   }
-  std::array<uint32_t, kChildren> at{};
+  std::array<uint32_t, BVH_CHILDREN> at{};
   at.fill(NO_TRIANGLE);
-  std::array<bool, kChildren> placed{};
+  std::array<bool, BVH_CHILDREN> placed{};
   while (true) {
     float best = -std::numeric_limits<float>::infinity();
-    uint32_t best_child = kChildren;
-    uint32_t best_octant = kChildren;
-    for (uint32_t k = 0; k < kChildren; ++k) {
+    uint32_t best_child = BVH_CHILDREN;
+    uint32_t best_octant = BVH_CHILDREN;
+    for (uint32_t k = 0; k < BVH_CHILDREN; ++k) {
       if (branch.children[k] == nullptr || placed[k]) continue;
       const glm::vec3 side = (branch.boxes[k].lo - all.lo) + (branch.boxes[k].hi - all.hi);
-      for (uint32_t octant = 0; octant < kChildren; ++octant) {
+      for (uint32_t octant = 0; octant < BVH_CHILDREN; ++octant) {
         if (at[octant] != NO_TRIANGLE) continue;
         const float far = ((octant & 1U) != 0 ? side.x : -side.x) +
                           ((octant & 2U) != 0 ? side.y : -side.y) +
@@ -110,7 +108,7 @@ std::array<uint32_t, kChildren> octants_of(const Branch& branch) {
         best_octant = octant;
       }
     }
-    if (best_child == kChildren) return at;
+    if (best_child == BVH_CHILDREN) return at;
     at[best_octant] = best_child;
     placed[best_child] = true;
   }
@@ -159,16 +157,17 @@ vec3 planes_of(uint corner) {
 }
 
 // The box around those of a node's children.
-SubpatchBox around_children(const BvhNode& node, const std::array<SubpatchBox, kChildren>& boxes) {
+SubpatchBox around_children(const BvhNode& node,
+                            const std::array<SubpatchBox, BVH_CHILDREN>& boxes) {
   SubpatchBox all = no_box();
-  for (uint32_t k = 0; k < kChildren; ++k) {
+  for (uint32_t k = 0; k < BVH_CHILDREN; ++k) {
     if (has_child(node, k)) all = around(all, boxes[k]);
   }
   return all;
 }
 
 // Sets the node's grid and the boxes of its children.
-void set_boxes(BvhNode& node, const std::array<SubpatchBox, kChildren>& boxes) {
+void set_boxes(BvhNode& node, const std::array<SubpatchBox, BVH_CHILDREN>& boxes) {
   const SubpatchBox all = around_children(node, boxes);
   const Grid x = grid_over(all.lo.x, all.hi.x);
   const Grid y = grid_over(all.lo.y, all.hi.y);
@@ -179,7 +178,7 @@ void set_boxes(BvhNode& node, const std::array<SubpatchBox, kChildren>& boxes) {
   node.step_x = x.step;
   node.step_y = y.step;
   node.step_z = z.step;
-  for (uint32_t k = 0; k < kChildren; ++k) {
+  for (uint32_t k = 0; k < BVH_CHILDREN; ++k) {
     if (!has_child(node, k)) continue;
     const SubpatchBox& box = boxes[k];
     node.boxes[k] = {
@@ -198,9 +197,9 @@ void flatten(const Branch& branch, int level, uint32_t parent, std::vector<BvhNo
   bvh.emplace_back();
   BvhNode node{};
   node.parent = parent;
-  const std::array<uint32_t, kChildren> children = octants_of(branch);
-  std::array<SubpatchBox, kChildren> boxes{};
-  for (uint32_t k = 0; k < kChildren; ++k) {
+  const std::array<uint32_t, BVH_CHILDREN> children = octants_of(branch);
+  std::array<SubpatchBox, BVH_CHILDREN> boxes{};
+  for (uint32_t k = 0; k < BVH_CHILDREN; ++k) {
     if (children[k] == NO_TRIANGLE) continue;
     node.children |= 1U << k;
     boxes[k] = branch.boxes[children[k]];
@@ -233,7 +232,7 @@ std::vector<BvhNode> build_bvh(const BakedScene& scene) {
       rtcNewDevice(nullptr));
   const std::unique_ptr<std::remove_pointer_t<RTCBVH>, ReleaseBvh> memory(rtcNewBVH(device.get()));
   RTCBuildArguments arguments = rtcDefaultBuildArguments();
-  arguments.maxBranchingFactor = kChildren;
+  arguments.maxBranchingFactor = BVH_CHILDREN;
   arguments.maxDepth = BVH_LEVELS;
   arguments.maxLeafSize = 1;
   arguments.bvh = memory.get();
@@ -282,8 +281,8 @@ std::optional<std::vector<BvhNode>> refitted_bvh(const BakedScene& scene, const 
   std::vector<SubpatchBox> around_nodes(bvh.size());
   for (std::size_t i = bvh.size(); i-- > 0;) {
     BvhNode& node = bvh[i];
-    std::array<SubpatchBox, kChildren> children{};
-    for (uint32_t k = 0; k < kChildren; ++k) {
+    std::array<SubpatchBox, BVH_CHILDREN> children{};
+    for (uint32_t k = 0; k < BVH_CHILDREN; ++k) {
       if (!has_child(node, k)) continue;
       const uint32_t link = node.links[k];
       children[k] = link >= BVH_LEAF ? boxes[link - BVH_LEAF] : around_nodes[link / BVH_PLACES];

@@ -13,8 +13,6 @@
 namespace trisect {
 namespace {
 
-constexpr uint32_t kChildren = 8;
-
 BakedScene scene_of(const std::string& asset, const SurfaceChoice& choice) {
   return bake_with_subpatches(test::load_asset(asset), choice);
 }
@@ -46,7 +44,7 @@ std::vector<uint32_t> subpatches_below(const std::vector<BvhNode>& bvh, const Ba
   std::vector<uint32_t> leaves;
   std::size_t linked = 1;
   for (uint32_t n = 0; n < bvh.size(); ++n) {
-    for (uint32_t k = 0; k < kChildren; ++k) {
+    for (uint32_t k = 0; k < BVH_CHILDREN; ++k) {
       if (!has_child(bvh[n], k)) continue;
       const uint32_t link = bvh[n].links[k];
       if (link >= BVH_LEAF) {
@@ -127,7 +125,7 @@ TEST(Bvh, HasTightBoxes) {
     const glm::vec3 plane(node.step_x, node.step_y, node.step_z);
     // Beside the rounding of the planes themselves, of numbers up to the torus's size, 1.
     const glm::vec3 most = plane + glm::vec3(1e-6F);
-    for (uint32_t k = 0; k < kChildren; ++k) {
+    for (uint32_t k = 0; k < BVH_CHILDREN; ++k) {
       if (!has_child(node, k) || node.links[k] < BVH_LEAF) continue;
       const SubpatchBox& box = boxes.at(node.links[k] - BVH_LEAF);
       const SubpatchBox on_grid = child_box(node, k);
@@ -182,11 +180,11 @@ TEST(Bvh, PutsChildrenInTheOrderOfOctants) {
     return middle.x + middle.y + middle.z;
   };
   ASSERT_TRUE(has_child(root, 0));
-  ASSERT_TRUE(has_child(root, kChildren - 1));
-  for (uint32_t k = 1; k + 1 < kChildren; ++k) {
+  ASSERT_TRUE(has_child(root, BVH_CHILDREN - 1));
+  for (uint32_t k = 1; k + 1 < BVH_CHILDREN; ++k) {
     if (!has_child(root, k)) continue;
     EXPECT_LT(along(0), along(k));
-    EXPECT_LT(along(k), along(kChildren - 1));
+    EXPECT_LT(along(k), along(BVH_CHILDREN - 1));
   }
 }
 
