@@ -20,6 +20,7 @@
 #include "app/dispatch/trace_settings.h"
 #include "app/dispatch/vulkan_tracer.h"
 #include "app/mesh/mesh_builder.h"
+#include "app/mesh/obj_file.h"
 #include "app/oracle/oracle_tracer.h"
 
 namespace trisect {

@@ -10,6 +10,7 @@
 #include "app/buffers/kernel_choice.h"
 #include "app/crosscheck/tolerance.h"
 #include "app/dispatch/backend.h"
+#include "app/mesh/mesh_builder.h"
 #include "app/surface/shared.h"
 
 namespace trisect {
@@ -35,7 +36,7 @@ struct RenderOptions {
   std::optional<glm::dvec3> light;
   bool shadows = false;
   double fov = 45.0;
-  std::optional<double> crease;
+  MeshOptions mesh;
   Backend backend = Backend::vulkan;
   GlPath gl_path = GlPath::compute;
   std::string device;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <string>
 #include <vector>
 
 namespace trisect {
@@ -28,7 +29,7 @@ enum class NormalSource {
   mixed,   // some corners have none in the file, or one of length zero, and got welded ones
 };
 
-// What build_mesh found in a model: counts, for a person to look at.
+// What build_mesh found in a model, for a person to look at.
 struct MeshReport {
   std::size_t triangles = 0;
   std::size_t vertices = 0;  // distinct positions that triangles use
@@ -38,7 +39,9 @@ struct MeshReport {
   std::size_t open_edges = 0;          // of one triangle only
   std::size_t non_manifold_edges = 0;  // of three triangles or more
   std::size_t flipped_edges = 0;       // of two triangles with opposite winding
+  std::size_t turned = 0;              // triangles whose winding was repaired
   std::size_t normals_behind = 0;      // corners whose normal points to the back of their triangle
+  std::vector<std::string> notes;      // of PolygonModel
 };
 
 }  // namespace trisect

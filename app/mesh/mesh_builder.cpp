@@ -15,12 +15,15 @@ namespace {
 
 using glm::dvec3;
 
-// A triangle whose corners are still indices into the file, and the welded positions of its
+// A triangle whose corners are still indices into the model, and the welded positions of its
 // corners.
 struct Corners {
-  std::array<ObjCorner, 3> corner;
+  std::array<PolygonCorner, 3> corner;
   std::array<uint32_t, 3> welded;
+  uint32_t smoothing_group;
 };
+
+constexpr uint32_t kNone = 0xffffffffU;
 
 struct PositionHash {
   std::size_t operator()(const dvec3& p) const {
@@ -44,6 +47,69 @@ std::vector<uint32_t> weld(const std::vector<dvec3>& positions) {
     welded.push_back(first.try_emplace(position, next).first->second);
   }
   return welded;
+}
+
+// For each position the index of the first one that stands for others and is no farther than
+// `distance` > 0.
+std::vector<uint32_t> weld(const std::vector<dvec3>& positions, double distance) {
+  // Those that stand for others, by cells of a grid.
+  std::unordered_map<dvec3, std::vector<uint32_t>, PositionHash> cells;
+  std::vector<uint32_t> welded;
+  welded.reserve(positions.size());
+  for (const dvec3& position : positions) {
+    const dvec3 cell = glm::floor(position / distance);
+    uint32_t found = kNone;
+    for (int i = 0; i < 27; ++i) {
+      const auto near = cells.find(cell + dvec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+      if (near == cells.end()) continue;
+      for (const uint32_t other : near->second) {
+        if (other < found && glm::distance(positions[other], position) <= distance) found = other;
+      }
+    }
+    if (found == kNone) {
+      found = static_cast<uint32_t>(welded.size());
+      cells[cell].push_back(found);
+    }
+    welded.push_back(found);
+  }
+  return welded;
+}
+
+// The corners of a polygon, by their numbers, without those at the place of the one before and
+// without spikes, in which the outline goes back the way that it came.
+std::vector<uint32_t> outline_of(std::span<const uint32_t> welded) {
+  std::vector<uint32_t> kept;
+  const auto at = [&](std::size_t i) { return welded[kept[i]]; };
+  for (uint32_t i = 0; i < welded.size(); ++i) {
+    kept.push_back(i);
+    while (true) {
+      const std::size_t n = kept.size();
+      if (n >= 2 && at(n - 1) == at(n - 2)) {
+        kept.pop_back();
+      } else if (n >= 3 && at(n - 1) == at(n - 3)) {
+        kept.resize(n - 2);
+      } else {
+        break;
+      }
+    }
+  }
+  // The same around the first corner.
+  std::size_t first = 0;
+  while (kept.size() - first >= 2) {
+    const std::size_t last = kept.size() - 1;
+    if (at(last) == at(first)) {
+      kept.pop_back();
+    } else if (last - first >= 2 && at(last - 1) == at(first)) {
+      kept.resize(last - 1);
+    } else if (last - first >= 2 && at(last) == at(first + 1)) {
+      kept.pop_back();
+      ++first;
+    } else {
+      break;
+    }
+  }
+  kept.erase(kept.begin(), kept.begin() + static_cast<std::ptrdiff_t>(first));
+  return kept;
 }
 
 // The face normal with twice the triangle's area as its length.
@@ -99,105 +165,258 @@ class VertexFans {
   std::vector<uint32_t> corners_;
 };
 
-// Angle-weighted normals, one for each corner: the mean over the faces around its vertex that lie
-// within the crease angle of the corner's own face.
-class WeldedNormals {
+// Which of the faces around a vertex are connected by edges: sets of numbers from 0 on.
+class Connected {
  public:
-  WeldedNormals(const std::vector<Corners>& triangles, const std::vector<dvec3>& positions,
-                double crease_cosine)
+  explicit Connected(std::size_t count) : root_(count) {
+    for (std::size_t i = 0; i < count; ++i) root_[i] = static_cast<uint32_t>(i);
+  }
+  void join(uint32_t a, uint32_t b) { root_[set_of(b)] = set_of(a); }
+  uint32_t set_of(uint32_t i) {
+    while (root_[i] != i) i = root_[i] = root_[root_[i]];
+    return i;
+  }
+
+ private:
+  std::vector<uint32_t> root_;
+};
+
+// Angle-weighted normals, one for each corner, as build_mesh() describes them.
+class MadeNormals {
+ public:
+  // crease_cosine: of the angle; less than -1 without one.
+  MadeNormals(const std::vector<Corners>& triangles, const std::vector<dvec3>& positions,
+              double crease_cosine)
       : triangles_(triangles),
         positions_(positions),
-        fans_(triangles, positions.size()),
-        crease_cosine_(crease_cosine) {
+        crease_cosine_(crease_cosine),
+        normals_(3 * triangles.size()) {
     faces_.reserve(triangles.size());
     for (const Corners& t : triangles) {
       faces_.push_back(glm::normalize(area_vector(points_of(t.welded, positions))));
     }
+    const VertexFans fans(triangles, positions.size());
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+      add(fans.around(static_cast<uint32_t>(v)));
+    }
   }
 
-  [[nodiscard]] dvec3 at(std::size_t triangle, std::size_t corner) const {
-    dvec3 sum(0.0);
-    for (const uint32_t other : fans_.around(triangles_[triangle].welded[corner])) {
-      const dvec3& face = faces_[other / 3];
-      if (other / 3 != triangle && glm::dot(face, faces_[triangle]) < crease_cosine_) continue;
-      sum += face * angle_at(points_of(triangles_[other / 3].welded, positions_), other % 3);
-    }
-    // Where the faces cancel out, as on the two sides of a sheet, the corner's own face decides.
-    const double length = glm::length(sum);
-    return length > 1e-9 ? sum / length : faces_[triangle];
+  [[nodiscard]] const dvec3& at(std::size_t triangle, std::size_t corner) const {
+    return normals_[3 * triangle + corner];
   }
 
  private:
+  // around: the corners at a vertex.
+  void add(std::span<const uint32_t> around) {
+    Connected connected = connected_faces(around);
+    std::vector<dvec3> weighted;
+    std::vector<dvec3> sums(around.size(), dvec3(0.0));
+    for (uint32_t i = 0; i < around.size(); ++i) {
+      const uint32_t triangle = around[i] / 3;
+      weighted.push_back(
+          faces_[triangle] *
+          angle_at(points_of(triangles_[triangle].welded, positions_), around[i] % 3));
+      sums[connected.set_of(i)] += weighted[i];
+    }
+    for (uint32_t i = 0; i < around.size(); ++i) {
+      const dvec3& face = faces_[around[i] / 3];
+      dvec3 sum = sums[connected.set_of(i)];
+      if (crease_cosine_ > -1.0) {
+        sum = dvec3(0.0);
+        for (uint32_t k = 0; k < around.size(); ++k) {
+          const bool counts = k == i || (connected.set_of(k) == connected.set_of(i) &&
+                                         !(glm::dot(faces_[around[k] / 3], face) < crease_cosine_));
+          if (counts) sum += weighted[k];
+        }
+      }
+      // Where the faces cancel out, as on the two sides of a sheet, the corner's own face decides.
+      const double length = glm::length(sum);
+      normals_[around[i]] = length > 1e-9 ? sum / length : face;
+    }
+  }
+
+  Connected connected_faces(std::span<const uint32_t> around) const {
+    struct Edge {
+      uint32_t to;  // the other vertex
+      uint32_t face;
+    };
+    std::vector<Edge> edges;
+    for (uint32_t i = 0; i < around.size(); ++i) {
+      const auto& welded = triangles_[around[i] / 3].welded;
+      edges.push_back({welded[(around[i] + 1) % 3], i});
+      edges.push_back({welded[(around[i] + 2) % 3], i});
+    }
+    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+      return std::pair(a.to, a.face) < std::pair(b.to, b.face);
+    });
+    Connected connected(around.size());
+    for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+      while (end < edges.size() && edges[end].to == edges[begin].to) ++end;
+      if (end - begin != 2) continue;
+      const uint32_t a = edges[begin].face;
+      const uint32_t b = edges[begin + 1].face;
+      const uint32_t group = triangles_[around[a] / 3].smoothing_group;
+      if (group != 0 && group == triangles_[around[b] / 3].smoothing_group) connected.join(a, b);
+    }
+    return connected;
+  }
+
   const std::vector<Corners>& triangles_;
   const std::vector<dvec3>& positions_;
-  VertexFans fans_;
   double crease_cosine_;
   std::vector<dvec3> faces_;
+  std::vector<dvec3> normals_;
 };
 
-// Counts the edges of the report. An edge is a pair of welded positions.
-void count_edges(const std::vector<Corners>& triangles, const Mesh& mesh, MeshReport& report) {
-  struct Side {
-    std::pair<uint32_t, uint32_t> edge;  // lower position first
-    std::pair<uint32_t, uint32_t> normals;
-    bool forward;
-  };
+// A triangle's side. An edge is a pair of welded positions.
+struct Side {
+  std::pair<uint32_t, uint32_t> edge;  // lower position first
+  uint32_t triangle;
+  uint32_t corner;  // at which it begins
+  bool forward;     // from the lower position to the other
+};
+
+// All sides, those of the same edge side by side.
+std::vector<Side> sides_of(const std::vector<Corners>& triangles) {
   std::vector<Side> sides;
   sides.reserve(triangles.size() * 3);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3;
-      Side side{{triangles[t].welded[i], triangles[t].welded[j]},
-                {mesh.triangles[t].normal[i], mesh.triangles[t].normal[j]},
-                triangles[t].welded[i] < triangles[t].welded[j]};
-      if (!side.forward) {
-        std::swap(side.edge.first, side.edge.second);
-        std::swap(side.normals.first, side.normals.second);
-      }
-      sides.push_back(side);
+  for (uint32_t t = 0; t < triangles.size(); ++t) {
+    for (uint32_t i = 0; i < 3; ++i) {
+      const uint32_t from = triangles[t].welded[i];
+      const uint32_t to = triangles[t].welded[(i + 1) % 3];
+      sides.push_back({std::minmax(from, to), t, i, from < to});
     }
   }
-  std::sort(sides.begin(), sides.end(),
-            [](const Side& a, const Side& b) { return a.edge < b.edge; });
-  // Files often hold normals in single precision: equal ones may differ in the last digit.
-  const auto differ = [&](uint32_t a, uint32_t b) {
-    return glm::distance(mesh.normals[a], mesh.normals[b]) > 1e-6;
-  };
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return std::pair(a.edge, 3 * a.triangle + a.corner) <
+           std::pair(b.edge, 3 * b.triangle + b.corner);
+  });
+  return sides;
+}
+
+// Calls with_edge(sides) for the sides of each edge.
+template <typename WithEdge>
+void for_edges(const std::vector<Side>& sides, WithEdge&& with_edge) {
   for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
     while (end < sides.size() && sides[end].edge == sides[begin].edge) ++end;
-    if (end - begin == 1) ++report.open_edges;
-    if (end - begin > 2) ++report.non_manifold_edges;
-    if (end - begin != 2) continue;
-    const Side& a = sides[begin];
-    const Side& b = sides[begin + 1];
-    if (a.forward == b.forward) ++report.flipped_edges;
-    if (differ(a.normals.first, b.normals.first) || differ(a.normals.second, b.normals.second)) {
-      ++report.hard_edges;
+    with_edge(std::span(sides).subspan(begin, end - begin));
+  }
+}
+
+// Counts the edges of the report.
+void count_edges(const std::vector<Corners>& triangles, const Mesh& mesh, MeshReport& report) {
+  // Files often hold normals in single precision: equal ones may differ in the last digit.
+  const auto differ = [&](const Side& a, uint32_t end_of_a, const Side& b, uint32_t end_of_b) {
+    const auto normal_at = [&](const Side& side, uint32_t end) {
+      return mesh.normals[mesh.triangles[side.triangle].normal[(side.corner + end) % 3]];
+    };
+    return glm::distance(normal_at(a, end_of_a), normal_at(b, end_of_b)) > 1e-6;
+  };
+  for_edges(sides_of(triangles), [&](std::span<const Side> sides) {
+    if (sides.size() == 1) ++report.open_edges;
+    if (sides.size() > 2) ++report.non_manifold_edges;
+    if (sides.size() != 2) return;
+    const Side& a = sides[0];
+    const Side& b = sides[1];
+    const bool same_way = a.forward == b.forward;
+    if (same_way) ++report.flipped_edges;
+    if (differ(a, 0, b, same_way ? 0 : 1) || differ(a, 1, b, same_way ? 1 : 0)) ++report.hard_edges;
+  });
+}
+
+// Six times the volume under a triangle, seen from a point.
+double volume_under(const Corners& t, const std::vector<dvec3>& positions, const dvec3& from) {
+  const std::array<dvec3, 3> p = points_of(t.welded, positions);
+  return glm::dot(glm::cross(p[0] - from, p[1] - from), p[2] - from);
+}
+
+// MeshOptions::repair. Returns how many triangles were turned around.
+std::size_t repair_winding(std::vector<Corners>& triangles, const std::vector<dvec3>& positions) {
+  struct Neighbour {
+    uint32_t triangle;
+    bool turned;  // has the opposite winding
+  };
+  std::vector<std::vector<Neighbour>> neighbours(triangles.size());
+  std::vector<bool> is_open(triangles.size(), false);
+  for_edges(sides_of(triangles), [&](std::span<const Side> sides) {
+    if (sides.size() == 2) {
+      const bool turned = sides[0].forward == sides[1].forward;
+      neighbours[sides[0].triangle].push_back({sides[1].triangle, turned});
+      neighbours[sides[1].triangle].push_back({sides[0].triangle, turned});
+      return;
+    }
+    for (const Side& side : sides) is_open[side.triangle] = true;
+  });
+  std::vector<bool> seen(triangles.size(), false);
+  std::vector<bool> turned(triangles.size(), false);
+  std::size_t count = 0;
+  for (uint32_t first = 0; first < triangles.size(); ++first) {
+    if (seen[first]) continue;
+    // All that hangs together with it.
+    std::vector<uint32_t> part{first};
+    seen[first] = true;
+    bool closed = true;
+    double volume = 0.0;
+    std::size_t turned_in_part = 0;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const uint32_t t = part[i];
+      closed = closed && !is_open[t];
+      const double under =
+          volume_under(triangles[t], positions, positions[triangles[first].welded[0]]);
+      volume += turned[t] ? -under : under;
+      turned_in_part += turned[t] ? 1 : 0;
+      for (const Neighbour& neighbour : neighbours[t]) {
+        if (seen[neighbour.triangle]) continue;
+        seen[neighbour.triangle] = true;
+        turned[neighbour.triangle] = turned[t] != neighbour.turned;
+        part.push_back(neighbour.triangle);
+      }
+    }
+    const bool inside_out = closed ? volume < 0.0 : 2 * turned_in_part > part.size();
+    for (const uint32_t t : part) {
+      if (turned[t] == inside_out) continue;
+      ++count;
+      std::swap(triangles[t].welded[1], triangles[t].welded[2]);
+      std::swap(triangles[t].corner[1], triangles[t].corner[2]);
     }
   }
+  return count;
 }
 
 }  // namespace
 
-BuiltMesh build_mesh(const ObjFile& file, const std::string& name,
-                     std::optional<double> crease_degrees) {
+BuiltMesh build_mesh(const PolygonModel& model, const std::string& name,
+                     const MeshOptions& options) {
   BuiltMesh built;
   Mesh& mesh = built.mesh;
   MeshReport& report = built.report;
-  const std::vector<uint32_t> welded = weld(file.positions);
+  const std::vector<uint32_t> welded =
+      options.weld > 0.0 ? weld(model.positions, options.weld) : weld(model.positions);
 
   std::vector<Corners> triangles;
   std::size_t first = 0;
-  for (const uint32_t size : file.sizes) {
-    const std::span<const ObjCorner> polygon(file.corners.data() + first, size);
-    first += size;
+  for (std::size_t face = 0; face < model.sizes.size(); ++face) {
+    const std::span<const PolygonCorner> polygon(model.corners.data() + first, model.sizes[face]);
+    first += model.sizes[face];
+    std::vector<uint32_t> places;
+    places.reserve(polygon.size());
+    for (const PolygonCorner& corner : polygon) places.push_back(welded[corner.position]);
+    const std::vector<uint32_t> outline = outline_of(places);
+    if (outline.size() < 3) {
+      ++report.degenerate_dropped;
+      continue;
+    }
     std::vector<dvec3> points;
-    for (const ObjCorner& corner : polygon) points.push_back(file.positions[corner.position]);
+    points.reserve(outline.size());
+    for (const uint32_t i : outline) points.push_back(model.positions[places[i]]);
+    const uint32_t group = model.smoothing_groups.empty() ? 1 : model.smoothing_groups[face];
     for (const auto& cut : triangulate(points)) {
-      const Corners t{{polygon[cut[0]], polygon[cut[1]], polygon[cut[2]]},
-                      {welded[polygon[cut[0]].position], welded[polygon[cut[1]].position],
-                       welded[polygon[cut[2]].position]}};
-      if (degenerate(points_of(t.welded, file.positions))) {
+      Corners t{{}, {}, group};
+      for (std::size_t i = 0; i < 3; ++i) {
+        t.corner[i] = polygon[outline[cut[i]]];
+        t.welded[i] = places[outline[cut[i]]];
+      }
+      if (degenerate(points_of(t.welded, model.positions))) {
         ++report.degenerate_dropped;
       } else {
         triangles.push_back(t);
@@ -205,38 +424,40 @@ BuiltMesh build_mesh(const ObjFile& file, const std::string& name,
     }
   }
   if (triangles.empty()) throw InputError(name + ": every face has zero area.");
+  if (options.repair) report.turned = repair_winding(triangles, model.positions);
 
-  // The file's normals at unit length. One of length zero cannot be used.
-  std::vector<bool> usable(file.normals.size(), false);
-  for (std::size_t i = 0; i < file.normals.size(); ++i) {
+  // The model's normals at unit length. One of length zero cannot be used.
+  std::vector<bool> usable(model.normals.size(), false);
+  for (std::size_t i = 0; i < model.normals.size(); ++i) {
     // Scaled by the largest component first, or the squares of tiny and huge ones would leave the
     // range of double precision.
-    const dvec3 size = glm::abs(file.normals[i]);
+    const dvec3 size = glm::abs(model.normals[i]);
     const double scale = std::max({size.x, size.y, size.z});
-    usable[i] = scale > 0.0 && !crease_degrees;
-    mesh.normals.push_back(usable[i] ? glm::normalize(file.normals[i] / scale) : dvec3(0.0));
+    usable[i] = scale > 0.0 && !options.crease_degrees;
+    mesh.normals.push_back(usable[i] ? glm::normalize(model.normals[i] / scale) : dvec3(0.0));
   }
 
-  std::vector<uint32_t> number(file.positions.size(), ObjCorner::no_normal);
-  const double cosine = crease_degrees ? std::cos(glm::radians(*crease_degrees)) : -2.0;
-  std::optional<WeldedNormals> own;
+  std::vector<uint32_t> number(model.positions.size(), kNone);
+  const double cosine =
+      options.crease_degrees ? std::cos(glm::radians(*options.crease_degrees)) : -2.0;
+  std::optional<MadeNormals> own;
   std::size_t from_file = 0;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     MeshTriangle out{};
-    const std::array<dvec3, 3> points = points_of(triangles[t].welded, file.positions);
+    const std::array<dvec3, 3> points = points_of(triangles[t].welded, model.positions);
     for (std::size_t i = 0; i < 3; ++i) {
       const uint32_t vertex = triangles[t].welded[i];
-      if (number[vertex] == ObjCorner::no_normal) {
+      if (number[vertex] == kNone) {
         number[vertex] = static_cast<uint32_t>(mesh.positions.size());
         mesh.positions.push_back(points[i]);
       }
       out.vertex[i] = number[vertex];
       const uint32_t normal = triangles[t].corner[i].normal;
-      if (normal != ObjCorner::no_normal && usable[normal]) {
+      if (normal != PolygonCorner::no_normal && usable[normal]) {
         out.normal[i] = normal;
         ++from_file;
       } else {
-        if (!own) own.emplace(triangles, file.positions, cosine);
+        if (!own) own.emplace(triangles, model.positions, cosine);
         out.normal[i] = static_cast<uint32_t>(mesh.normals.size());
         mesh.normals.push_back(own->at(t, i));
       }
@@ -252,12 +473,13 @@ BuiltMesh build_mesh(const ObjFile& file, const std::string& name,
   report.normals = from_file == 3 * mesh.triangles.size() ? NormalSource::file
                    : from_file == 0                       ? NormalSource::welded
                                                           : NormalSource::mixed;
+  report.notes = model.notes;
   count_edges(triangles, mesh, report);
   return built;
 }
 
 BuiltMesh build_mesh(std::span<const dvec3> positions, std::span<const dvec3> normals,
-                     std::span<const uint32_t> triangles, std::optional<double> crease_degrees) {
+                     std::span<const uint32_t> triangles, const MeshOptions& options) {
   const auto expect = [](bool holds, const std::string& otherwise) {
     if (!holds) throw InputError("mesh: " + otherwise + ".");
   };
@@ -272,7 +494,7 @@ BuiltMesh build_mesh(std::span<const dvec3> positions, std::span<const dvec3> no
                      positions.size()));
   expect(std::all_of(positions.begin(), positions.end(), is_finite), "a position is not finite");
   expect(std::all_of(normals.begin(), normals.end(), is_finite), "a normal is not finite");
-  ObjFile polygons;
+  PolygonModel polygons;
   polygons.positions.assign(positions.begin(), positions.end());
   polygons.normals.assign(normals.begin(), normals.end());
   polygons.sizes.assign(triangles.size() / 3, 3);
@@ -280,9 +502,9 @@ BuiltMesh build_mesh(std::span<const dvec3> positions, std::span<const dvec3> no
   for (const uint32_t index : triangles) {
     expect(index < positions.size(),
            fmt::format("index {} names none of {} positions", index, positions.size()));
-    polygons.corners.push_back({index, normals.empty() ? ObjCorner::no_normal : index});
+    polygons.corners.push_back({index, normals.empty() ? PolygonCorner::no_normal : index});
   }
-  return build_mesh(polygons, "mesh", crease_degrees);
+  return build_mesh(polygons, "mesh", options);
 }
 
 std::string describe(const MeshReport& report) {
@@ -298,9 +520,11 @@ std::string describe(const MeshReport& report) {
   if (report.flipped_edges > 0) {
     text += fmt::format(", {} edges between triangles of opposite winding", report.flipped_edges);
   }
+  if (report.turned > 0) text += fmt::format(", {} triangles turned around", report.turned);
   if (report.normals_behind > 0) {
     text += fmt::format(", {} corner normals that point behind their face", report.normals_behind);
   }
+  for (const std::string& note : report.notes) text += ", " + note;
   return text;
 }
 

@@ -4,22 +4,228 @@
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
-#include <cerrno>
+#include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <ios>
+#include <cstdlib>
+#include <iterator>
+#include <optional>
 #include <streambuf>
 #include <system_error>
 #include <utility>
 
 #include "app/base/error.h"
+#include "app/mesh/file_bytes.h"
 
 namespace trisect {
 namespace {
 
-// A text in memory as a stream that counts the lines that have been read from it, so that errors
-// can name the line.
+// What is left out of a file, or read otherwise than written.
+struct Counts {
+  std::size_t points = 0;
+  std::size_t lines = 0;
+  std::size_t curves = 0;
+  std::size_t surfaces = 0;
+  std::size_t small_faces = 0;   // of one or two corners
+  std::size_t weights = 0;       // fourth coordinates other than 1
+  std::size_t lost_normals = 0;  // corners that name a normal, in a file that has none
+};
+
+// A file as tinyobjloader is to see it: "v", "vn" and "f" alone, one line each.
+struct OrderedText {
+  std::string text;
+  std::vector<std::size_t> line_of;        // the number in the file of each line
+  std::vector<uint32_t> smoothing_groups;  // of each face
+  bool has_groups = false;
+  Counts counts;
+};
+
+// Removes the first word from `line` and returns it; empty at the end of the line.
+std::string_view take_word(std::string_view& line) {
+  constexpr std::string_view spaces = " \t\r\f\v";
+  const std::size_t begin = std::min(line.find_first_not_of(spaces), line.size());
+  const std::size_t end = std::min(line.find_first_of(spaces, begin), line.size());
+  const std::string_view word = line.substr(begin, end - begin);
+  line.remove_prefix(end);
+  return word;
+}
+
+// The finite number that a word is; what is too small for double precision is 0.
+std::optional<double> number_of(std::string_view word) {
+  if (word.starts_with('+')) {
+    word.remove_prefix(1);
+    if (word.starts_with('-')) return std::nullopt;
+  }
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (end != word.data() + word.size() || word.empty()) return std::nullopt;
+  if (error == std::errc::result_out_of_range) {
+    value = std::strtod(std::string(word).c_str(), nullptr);
+  }
+  if (error != std::errc() && error != std::errc::result_out_of_range) return std::nullopt;
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+std::optional<int> whole_number(std::string_view word) {
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+  int value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const bool is_whole = error == std::errc() && end == word.data() + word.size();
+  return is_whole ? std::optional(value) : std::nullopt;
+}
+
+// A corner of a face as the file writes it: v, v/vt, v//vn or v/vt/vn, where what follows v may be
+// left out or 0.
+struct WrittenCorner {
+  int vertex;
+  int normal;  // 0 without one
+};
+
+std::optional<WrittenCorner> corner_of(std::string_view word) {
+  std::array<int, 3> index{};
+  for (std::size_t field = 0; field < index.size(); ++field) {
+    const std::string_view text = word.substr(0, word.find('/'));
+    if (!text.empty()) {
+      const auto number = whole_number(text);
+      if (!number) return std::nullopt;
+      index[field] = *number;
+    }
+    if (text.size() == word.size()) {
+      if (index[0] == 0) return std::nullopt;
+      return WrittenCorner{index[0], index[2]};
+    }
+    word.remove_prefix(text.size() + 1);
+  }
+  return std::nullopt;
+}
+
+// The lines of a text, without their comments, one at a time. Where the text has a line that ends
+// with a backslash the next one is its continuation; not so in a name, which may end with one.
+class Lines {
+ public:
+  explicit Lines(std::string_view text) : rest_(text) {}
+
+  // False at the end of the text.
+  bool next() {
+    if (rest_.empty()) return false;
+    number_ = passed_ + 1;
+    line_ = take();
+    std::string_view words = line_;
+    key_ = take_word(words);
+    constexpr std::array<std::string_view, 6> of_names{"usemtl", "mtllib", "usemap",
+                                                       "maplib", "o",      "g"};
+    if (std::find(of_names.begin(), of_names.end(), key_) != of_names.end()) return true;
+    if (!is_continued(line_)) return true;
+    joined_.clear();
+    while (is_continued(line_)) {
+      joined_.append(line_, 0, line_.rfind('\\')).push_back(' ');
+      line_ = rest_.empty() ? std::string_view() : take();
+    }
+    line_ = joined_.append(line_);
+    words = line_;
+    key_ = take_word(words);
+    return true;
+  }
+
+  [[nodiscard]] std::size_t number() const { return number_; }
+  [[nodiscard]] std::string_view key() const { return key_; }
+  // What follows the key.
+  [[nodiscard]] std::string_view words() const {
+    return line_.substr(static_cast<std::size_t>(key_.data() + key_.size() - line_.data()));
+  }
+
+ private:
+  static bool is_continued(std::string_view line) {
+    const std::size_t last = line.find_last_not_of(" \t\r");
+    return last != std::string_view::npos && line[last] == '\\';
+  }
+
+  // A line ends with \n, \r\n or a lone \r.
+  std::string_view take() {
+    ++passed_;
+    const std::size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
+    const std::string_view line = rest_.substr(0, end);
+    rest_.remove_prefix(rest_.substr(end).starts_with("\r\n") ? end + 2
+                                                              : std::min(end + 1, rest_.size()));
+    return line.substr(0, line.find('#'));
+  }
+
+  std::string_view rest_;
+  std::string_view line_;
+  std::string_view key_;
+  std::string joined_;
+  std::size_t number_ = 0;
+  std::size_t passed_ = 0;
+};
+
+// Throws for what tinyobjloader would accept in silence: it reads a number that it cannot parse as
+// 0 and skips a face without corners.
+OrderedText ordered(std::string_view text, const std::string& name) {
+  OrderedText out;
+  Counts& counts = out.counts;
+  // Before the first "s" everything is smooth, as without any.
+  uint32_t group = 1;
+  Lines lines(text);
+  const auto fail = [&](const std::string& what) {
+    throw InputError(fmt::format("{}, line {}: {}.", name, lines.number(), what));
+  };
+  const auto begin_line = [&](std::string_view key) {
+    out.text += key;
+    out.line_of.push_back(lines.number());
+  };
+  while (lines.next()) {
+    const std::string_view key = lines.key();
+    std::string_view words = lines.words();
+    if (key == "v" || key == "vn") {
+      begin_line(key);
+      for (int i = 0; i < 3; ++i) {
+        const std::string_view word = take_word(words);
+        if (word.empty()) fail(fmt::format("'{}' has fewer than three coordinates", key));
+        if (!number_of(word)) fail(fmt::format("'{}' is not a finite number", word));
+        out.text.append(" ").append(word);
+      }
+      out.text += '\n';
+      // More than four are coordinates and a colour.
+      const std::string_view weight = take_word(words);
+      if (key == "v" && !weight.empty() && take_word(words).empty() && number_of(weight) != 1.0) {
+        ++counts.weights;
+      }
+    } else if (key == "f" || key == "fo") {
+      std::vector<WrittenCorner> corners;
+      for (auto word = take_word(words); !word.empty(); word = take_word(words)) {
+        const auto corner = corner_of(word);
+        if (!corner) fail(fmt::format("'{}' is not a corner of a face", word));
+        corners.push_back(*corner);
+      }
+      if (corners.size() < 3) {
+        ++counts.small_faces;
+        continue;
+      }
+      begin_line("f");
+      for (const WrittenCorner& corner : corners) {
+        fmt::format_to(std::back_inserter(out.text), " {}//{}", corner.vertex, corner.normal);
+      }
+      out.text += '\n';
+      out.smoothing_groups.push_back(group);
+    } else if (key == "s") {
+      out.has_groups = true;
+      const std::string_view word = take_word(words);
+      const auto number = whole_number(word);
+      if (word != "off" && word != "on" && (!number || *number < 0)) {
+        fail(fmt::format("'{}' is not a smoothing group", word));
+      }
+      group = word == "off" ? 0 : word == "on" ? 1 : static_cast<uint32_t>(*number);
+    } else {
+      counts.points += key == "p" ? 1 : 0;
+      counts.lines += key == "l" ? 1 : 0;
+      counts.curves += key == "curv" || key == "curv2" ? 1 : 0;
+      counts.surfaces += key == "surf" ? 1 : 0;
+    }
+  }
+  return out;
+}
+
+// A text in memory as a stream that counts the lines that have been read from it.
 class CountingBuffer : public std::streambuf {
  public:
   explicit CountingBuffer(std::string_view text) : text_(text) {}
@@ -33,8 +239,7 @@ class CountingBuffer : public std::streambuf {
   int_type uflow() override {
     if (at_ >= text_.size()) return traits_type::eof();
     const char c = text_[at_++];
-    // A line ends with \n, \r\n or a lone \r.
-    if (c == '\n' || (c == '\r' && (at_ >= text_.size() || text_[at_] != '\n'))) ++lines_;
+    if (c == '\n') ++lines_;
     return traits_type::to_int_type(c);
   }
 
@@ -44,134 +249,124 @@ class CountingBuffer : public std::streambuf {
   std::size_t lines_ = 0;
 };
 
-// Removes the first word from `line` and returns it; empty at the end of the line.
-std::string_view take_word(std::string_view& line) {
-  constexpr std::string_view spaces = " \t\r";
-  const std::size_t begin = std::min(line.find_first_not_of(spaces), line.size());
-  const std::size_t end = std::min(line.find_first_of(spaces, begin), line.size());
-  const std::string_view word = line.substr(begin, end - begin);
-  line.remove_prefix(end);
-  return word;
-}
+// The target of the parser's callbacks.
+class Reader {
+ public:
+  Reader(const CountingBuffer& source, const std::vector<std::size_t>& line_of,
+         const std::string& name)
+      : source_(source), line_of_(line_of), name_(name) {}
 
-bool is_finite_number(std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size() && std::isfinite(value);
-}
+  void add_position(double x, double y, double z) { model_.positions.emplace_back(x, y, z); }
+  void add_normal(double x, double y, double z) { model_.normals.emplace_back(x, y, z); }
 
-// Whether a word is v, v/vt, v//vn or v/vt/vn with whole numbers other than 0.
-bool is_corner(std::string_view word) {
-  for (int field = 0; field < 3; ++field) {
-    const std::string_view number = word.substr(0, word.find('/'));
-    int index = 0;
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), index);
-    const bool whole = error == std::errc() && end == number.data() + number.size() && index != 0;
-    const bool left_out = field == 1 && number.empty();
-    if (!whole && !left_out) return false;
-    if (number.size() == word.size()) return !left_out;
-    word.remove_prefix(number.size() + 1);
+  void add_face(const tinyobj::index_t* indices, int count) {
+    lines_.push_back(line_of_[source_.lines_read() - 1]);
+    for (int i = 0; i < count; ++i) {
+      const tinyobj::index_t& index = indices[i];
+      model_.corners.push_back(
+          {zero_based(index.vertex_index, model_.positions.size(), "vertex"),
+           index.normal_index == 0
+               ? PolygonCorner::no_normal
+               : zero_based(index.normal_index, model_.normals.size(), "normal")});
+    }
+    model_.sizes.push_back(static_cast<uint32_t>(count));
   }
-  return false;
-}
 
-// The text with its comments replaced by spaces: tinyobjloader takes a comment only on a line of
-// its own.
-std::string without_comments(std::string_view text) {
-  std::string plain(text);
-  bool comment = false;
-  for (char& c : plain) {
-    if (c == '#') comment = true;
-    if (c == '\n' || c == '\r') comment = false;
-    if (comment) c = ' ';
+  // What was read. Faces may name what came after them, so only now it is known what they name.
+  // lost_normals: counts corners whose normals do not exist, in a file without any.
+  PolygonModel finish(std::size_t& lost_normals) {
+    const bool has_normals = !model_.normals.empty();
+    std::size_t first = 0;
+    for (std::size_t face = 0; face < model_.sizes.size(); ++face) {
+      for (std::size_t i = first; i < first + model_.sizes[face]; ++i) {
+        PolygonCorner& corner = model_.corners[i];
+        check(corner.position, model_.positions.size(), "vertex", lines_[face]);
+        if (corner.normal == PolygonCorner::no_normal) continue;
+        if (has_normals) {
+          check(corner.normal, model_.normals.size(), "normal", lines_[face]);
+        } else {
+          corner.normal = PolygonCorner::no_normal;
+          ++lost_normals;
+        }
+      }
+      first += model_.sizes[face];
+    }
+    return std::move(model_);
+  }
+
+ private:
+  // Turns an OBJ index, 1-based or negative and counted from the end so far, into a zero-based one.
+  [[nodiscard]] uint32_t zero_based(int index, std::size_t count, const char* what) const {
+    const long long result = index > 0 ? index - 1LL : static_cast<long long>(count) + index;
+    if (result < 0) {
+      throw InputError(fmt::format("{}, line {}: the face names {} {}, but there are {} so far.",
+                                   name_, lines_.back(), what, index, count));
+    }
+    return static_cast<uint32_t>(result);
+  }
+
+  void check(uint32_t index, std::size_t count, const char* what, std::size_t line) const {
+    if (index < count) return;
+    throw InputError(fmt::format("{}, line {}: the face names {} {}, but there are {}.", name_,
+                                 line, what, index + 1, count));
+  }
+
+  const CountingBuffer& source_;
+  const std::vector<std::size_t>& line_of_;
+  const std::string& name_;
+  PolygonModel model_;
+  std::vector<std::size_t> lines_;  // of the faces
+};
+
+// UTF-16 with its mark as ASCII: only names and comments have other characters, and those do not
+// matter.
+std::string from_utf16(std::string_view text) {
+  const std::size_t high = text.starts_with("\xFE\xFF") ? 0 : 1;
+  std::string plain;
+  plain.reserve(text.size() / 2);
+  for (std::size_t i = 2; i + 1 < text.size(); i += 2) {
+    const char low = text[i + 1 - high];
+    plain.push_back(text[i + high] == '\0' && static_cast<unsigned char>(low) < 0x80 ? low : '?');
   }
   return plain;
 }
 
-// Throws for the lines that tinyobjloader would accept in silence: it reads a number that it cannot
-// parse as 0 and skips a face without corners.
-void check_lines(std::string_view text, const std::string& name) {
-  std::size_t number = 0;
-  while (!text.empty()) {
-    ++number;
-    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(text.substr(end).starts_with("\r\n") ? end + 2
-                                                            : std::min(end + 1, text.size()));
-    const bool continued = line.ends_with('\\');
-    const std::string_view key = take_word(line);
-    const auto fail = [&](const std::string& what) {
-      throw InputError(fmt::format("{}, line {}: {}.", name, number, what));
-    };
-    if (continued) fail("a line that is continued by a backslash is not supported");
-    if (key == "v" || key == "vn") {
-      for (int i = 0; i < 3; ++i) {
-        const std::string_view word = take_word(line);
-        if (word.empty()) fail(fmt::format("'{}' has fewer than three coordinates", key));
-        if (!is_finite_number(word)) fail(fmt::format("'{}' is not a finite number", word));
-      }
-    } else if (key == "f") {
-      int corners = 0;
-      for (auto word = take_word(line); !word.empty(); word = take_word(line), ++corners) {
-        if (!is_corner(word)) fail(fmt::format("'{}' is not a corner of a face", word));
-      }
-      if (corners < 3) fail(fmt::format("a face has {} corners, fewer than three", corners));
-    }
-  }
+std::vector<std::string> notes_of(const Counts& counts) {
+  std::vector<std::string> notes;
+  const auto note = [&](std::size_t count, const char* one, const char* many, const char* what) {
+    if (count > 0) notes.push_back(fmt::format("{} {} {}", count, count == 1 ? one : many, what));
+  };
+  note(counts.points, "point element", "point elements", "left out");
+  note(counts.lines, "line element", "line elements", "left out");
+  note(counts.curves, "curve", "curves", "left out");
+  note(counts.surfaces, "free-form surface", "free-form surfaces", "left out");
+  note(counts.small_faces, "face", "faces", "of one or two corners left out");
+  note(counts.weights, "vertex", "vertices", "with a weight, which does not count");
+  note(counts.lost_normals, "corner names", "corners name", "a normal in a file that has none");
+  return notes;
 }
-
-// The target of the parser's callbacks. OBJ lets a face use only what stands before it in the file,
-// so every index is checked when its face arrives.
-struct Reader {
-  ObjFile file;
-  const CountingBuffer* source = nullptr;
-  const std::string* name = nullptr;
-
-  [[noreturn]] void fail(const std::string& what) const {
-    throw InputError(fmt::format("{}, line {}: {}.", *name, source->lines_read(), what));
-  }
-
-  // Turns an OBJ index, 1-based or negative and counted from the end, into a zero-based one.
-  [[nodiscard]] uint32_t resolve(int index, std::size_t count, const char* what) const {
-    const long long zero_based = index > 0 ? index - 1LL : static_cast<long long>(count) + index;
-    if (index == 0 || zero_based < 0 || zero_based >= static_cast<long long>(count)) {
-      fail(fmt::format("the face names {} {}, but there are {} so far", what, index, count));
-    }
-    return static_cast<uint32_t>(zero_based);
-  }
-
-  void add_face(const tinyobj::index_t* indices, int count) {
-    for (int i = 0; i < count; ++i) {
-      const tinyobj::index_t& index = indices[i];
-      // The parser reports 0 for a normal that the face does not name; 0 is no index in OBJ.
-      file.corners.push_back({resolve(index.vertex_index, file.positions.size(), "vertex"),
-                              index.normal_index == 0
-                                  ? ObjCorner::no_normal
-                                  : resolve(index.normal_index, file.normals.size(), "normal")});
-    }
-    file.sizes.push_back(static_cast<uint32_t>(count));
-  }
-};
 
 }  // namespace
 
-ObjFile parse_obj(std::string_view file_text, const std::string& name) {
+PolygonModel parse_obj(std::string_view file_text, const std::string& name) {
+  std::string converted;
+  if (file_text.starts_with("\xFF\xFE") || file_text.starts_with("\xFE\xFF")) {
+    file_text = converted = from_utf16(file_text);
+  }
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (file_text.starts_with(byte_order_mark)) file_text.remove_prefix(byte_order_mark.size());
-  const std::string text = without_comments(file_text);
-  check_lines(text, name);
+  OrderedText text = ordered(file_text, name);
 
-  CountingBuffer buffer(text);
+  CountingBuffer buffer(text.text);
   std::istream stream(&buffer);
   // The callbacks may throw through the parser: it holds nothing that an exception would leak.
-  Reader reader{{}, &buffer, &name};
+  Reader reader(buffer, text.line_of, name);
   tinyobj::callback_t callbacks;
   callbacks.vertex_cb = [](void* user, double x, double y, double z, double /*w*/) {
-    static_cast<Reader*>(user)->file.positions.emplace_back(x, y, z);
+    static_cast<Reader*>(user)->add_position(x, y, z);
   };
   callbacks.normal_cb = [](void* user, double x, double y, double z) {
-    static_cast<Reader*>(user)->file.normals.emplace_back(x, y, z);
+    static_cast<Reader*>(user)->add_normal(x, y, z);
   };
   callbacks.index_cb = [](void* user, tinyobj::index_t* indices, int count) {
     static_cast<Reader*>(user)->add_face(indices, count);
@@ -181,27 +376,23 @@ ObjFile parse_obj(std::string_view file_text, const std::string& name) {
   if (!tinyobj::LoadObjWithCallback(stream, callbacks, &reader, nullptr, &warning, &error)) {
     throw InputError(fmt::format("{}: {}", name, error));
   }
-  if (reader.file.sizes.empty()) throw InputError(name + ": the file has no faces.");
-  return std::move(reader.file);
+  PolygonModel model = reader.finish(text.counts.lost_normals);
+  model.notes = notes_of(text.counts);
+  if (text.has_groups) model.smoothing_groups = std::move(text.smoothing_groups);
+  if (model.sizes.empty()) {
+    throw InputError(fmt::format(
+        "{}: the file has no faces{}.", name,
+        model.notes.empty() ? "" : "; " + fmt::format("{}", fmt::join(model.notes, ", "))));
+  }
+  return model;
 }
 
 std::string model_name(const std::filesystem::path& path) {
   return path.stem().string();
 }
 
-ObjFile read_obj(const std::filesystem::path& path) {
-  std::error_code unused;
-  if (std::filesystem::is_directory(path, unused)) {
-    throw InputError(path.string() + ": is a directory, not an OBJ file.");
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    throw InputError(fmt::format("{}: cannot be opened: {}.", path.string(),
-                                 std::generic_category().message(errno)));
-  }
-  std::string text(std::istreambuf_iterator<char>(file), {});
-  if (file.bad()) throw InputError(path.string() + ": cannot be read.");
-  return parse_obj(text, path.string());
+PolygonModel read_obj(const std::filesystem::path& path) {
+  return parse_obj(read_bytes(path), path.string());
 }
 
 }  // namespace trisect

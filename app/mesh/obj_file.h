@@ -1,40 +1,30 @@
-// Reading Wavefront OBJ files: tinyobjloader parses, this reader checks what it parses.
+// Reading Wavefront OBJ files as programs write them: this reader checks and puts in order what
+// tinyobjloader then parses.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <glm/glm.hpp>
 #include <string>
 #include <string_view>
-#include <vector>
+
+#include "app/mesh/polygon_model.h"
 
 namespace trisect {
-
-// A corner of a polygon: zero-based indices into the arrays of ObjFile; no_normal where the file
-// gives none.
-struct ObjCorner {
-  static constexpr uint32_t no_normal = 0xffffffffU;
-  uint32_t position;
-  uint32_t normal;
-};
-
-// The polygons of all groups and objects of a file, in file order.
-struct ObjFile {
-  std::vector<glm::dvec3> positions;
-  std::vector<glm::dvec3> normals;  // as in the file, not normalised
-  std::vector<ObjCorner> corners;   // of all polygons, one polygon after the other
-  std::vector<uint32_t> sizes;      // number of corners of each polygon, three or more
-};
 
 // What a model is called: "teapot" of "assets/teapot.obj".
 std::string model_name(const std::filesystem::path& path);
 
-// Reads a file. Throws InputError with the file's name and, where there is one, the line at fault,
-// if the file cannot be read or has no faces, if a vertex or normal is not three finite numbers, or
-// if a face has fewer than three corners or an index that names nothing.
-ObjFile read_obj(const std::filesystem::path& path);
+// Reads a file, which may be compressed by gzip. Throws InputError with the file's name and, where
+// there is one, the line at fault, if the file cannot be read or has no faces, if a vertex or
+// normal is not three finite numbers, or if a face has a corner that names nothing.
+//
+// Faces may name vertices that come later. Points, lines, curves, surfaces and faces of one or two
+// corners are left out; so are fourth coordinates of vertices, and normals that faces name in a
+// file that has none. The notes say what, and how often. Smoothing groups are read; without any all
+// faces are in one.
+PolygonModel read_obj(const std::filesystem::path& path);
 
-// The same for the text of a file; `name` stands for the file in messages.
-ObjFile parse_obj(std::string_view file_text, const std::string& name);
+// The same for the text of a file, in ASCII, UTF-8 or UTF-16; `name` stands for the file in
+// messages.
+PolygonModel parse_obj(std::string_view file_text, const std::string& name);
 
 }  // namespace trisect

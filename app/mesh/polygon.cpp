@@ -1,8 +1,9 @@
 #include "app/mesh/polygon.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
+#include <utility>
 
 namespace trisect {
 namespace {
@@ -44,50 +45,119 @@ bool inside(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b, const
          turn(c, a, p) >= 0.0;
 }
 
-}  // namespace
+// The corners of a polygon in its plane, of which ears are cut off.
+class Ring {
+ public:
+  explicit Ring(std::vector<glm::dvec2> points)
+      : points_(std::move(points)),
+        before_(points_.size()),
+        after_(points_.size()),
+        blocks_(points_.size(), false) {
+    const auto n = static_cast<uint32_t>(points_.size());
+    for (uint32_t i = 0; i < n; ++i) {
+      before_[i] = (i + n - 1) % n;
+      after_[i] = (i + 1) % n;
+    }
+    least_ = largest_ = points_[0];
+    for (const glm::dvec2& p : points_) {
+      least_ = glm::min(least_, p);
+      largest_ = glm::max(largest_, p);
+    }
+    uint32_t blocking = 0;
+    for (uint32_t i = 0; i < n; ++i) blocking += turn_at(i) > 0.0 ? 0 : 1;
+    // About one blocking corner in a cell.
+    cells_across_ = std::max(1U, static_cast<uint32_t>(std::sqrt(blocking)));
+    cells_.resize(std::size_t{cells_across_} * cells_across_);
+    for (uint32_t i = 0; i < n; ++i) note_turn(i);
+  }
 
-std::vector<std::array<uint32_t, 3>> triangulate(std::span<const glm::dvec3> corners) {
-  const std::vector<glm::dvec2> points = project(corners);
-  std::vector<uint32_t> ring(corners.size());
-  std::iota(ring.begin(), ring.end(), 0U);
-  std::vector<std::array<uint32_t, 3>> triangles;
-  triangles.reserve(corners.size() - 2);
+  [[nodiscard]] std::array<uint32_t, 3> corner(uint32_t i) const {
+    return {before_[i], i, after_[i]};
+  }
+  [[nodiscard]] uint32_t after(uint32_t i) const { return after_[i]; }
 
-  const auto corner = [&](std::size_t i) -> std::array<uint32_t, 3> {
-    const std::size_t n = ring.size();
-    return {ring[(i + n - 1) % n], ring[i % n], ring[(i + 1) % n]};
-  };
-  const auto turn_at = [&](std::size_t i) {
-    const auto [a, b, c] = corner(i);
-    return turn(points[a], points[b], points[c]);
-  };
-  const auto is_ear = [&](std::size_t i) {
+  // Whether the triangle at corner i lies within the polygon and can be cut off.
+  [[nodiscard]] bool is_ear(uint32_t i) const {
     if (!(turn_at(i) > 0.0)) return false;
-    const auto [a, b, c] = corner(i);
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-      // In a simple polygon only a corner that does not turn left can lie inside an ear.
-      if (turn_at(k) <= 0.0 && inside(points[ring[k]], points[a], points[b], points[c])) {
-        return false;
+    const glm::dvec2& a = points_[before_[i]];
+    const glm::dvec2& b = points_[i];
+    const glm::dvec2& c = points_[after_[i]];
+    const glm::uvec2 first = cell_of(glm::min(glm::min(a, b), c));
+    const glm::uvec2 last = cell_of(glm::max(glm::max(a, b), c));
+    for (uint32_t y = first.y; y <= last.y; ++y) {
+      for (uint32_t x = first.x; x <= last.x; ++x) {
+        for (const uint32_t k : cells_[std::size_t{y} * cells_across_ + x]) {
+          if (blocks_[k] && inside(points_[k], a, b, c)) return false;
+        }
       }
     }
     return true;
-  };
-
-  std::size_t next = 1;
-  while (ring.size() > 3) {
-    std::size_t ear = next;
-    std::size_t tried = 0;
-    while (tried < ring.size() && !is_ear(ear % ring.size())) {
-      ++ear;
-      ++tried;
-    }
-    // No ear: the polygon crosses itself or has no area. Any corner will do.
-    const std::size_t cut = ear % ring.size();
-    triangles.push_back(corner(cut));
-    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(cut));
-    next = cut;
   }
-  triangles.push_back({ring[0], ring[1], ring[2]});
+
+  void cut(uint32_t i) {
+    blocks_[i] = false;
+    after_[before_[i]] = after_[i];
+    before_[after_[i]] = before_[i];
+    note_turn(before_[i]);
+    note_turn(after_[i]);
+  }
+
+ private:
+  [[nodiscard]] double turn_at(uint32_t i) const {
+    return turn(points_[before_[i]], points_[i], points_[after_[i]]);
+  }
+
+  [[nodiscard]] glm::uvec2 cell_of(const glm::dvec2& p) const {
+    const glm::dvec2 size = largest_ - least_;
+    glm::uvec2 cell(0);
+    for (int k = 0; k < 2; ++k) {
+      // Written so that a NaN is in the first cell.
+      const double at = size[k] > 0.0 ? (p[k] - least_[k]) / size[k] * cells_across_ : 0.0;
+      if (at >= 1.0) {
+        cell[k] = std::min(static_cast<uint32_t>(std::min(at, 1e9)), cells_across_ - 1);
+      }
+    }
+    return cell;
+  }
+
+  // In a simple polygon only a corner that does not turn left can lie inside an ear.
+  void note_turn(uint32_t i) {
+    const bool blocked = blocks_[i];
+    blocks_[i] = !(turn_at(i) > 0.0);
+    if (!blocks_[i] || blocked) return;
+    const glm::uvec2 cell = cell_of(points_[i]);
+    cells_[std::size_t{cell.y} * cells_across_ + cell.x].push_back(i);
+  }
+
+  std::vector<glm::dvec2> points_;
+  std::vector<uint32_t> before_;
+  std::vector<uint32_t> after_;
+  std::vector<bool> blocks_;  // corners that may lie inside an ear
+  glm::dvec2 least_;
+  glm::dvec2 largest_;
+  uint32_t cells_across_ = 1;
+  std::vector<std::vector<uint32_t>> cells_;  // the blocking corners, by their places
+};
+
+}  // namespace
+
+std::vector<std::array<uint32_t, 3>> triangulate(std::span<const glm::dvec3> corners) {
+  Ring ring(project(corners));
+  std::vector<std::array<uint32_t, 3>> triangles;
+  triangles.reserve(corners.size() - 2);
+  uint32_t next = 1;
+  for (std::size_t left = corners.size(); left > 3; --left) {
+    uint32_t ear = next;
+    for (std::size_t tried = 0; tried < left && !ring.is_ear(ear); ++tried) ear = ring.after(ear);
+    // No ear, and once around: the polygon crosses itself or has no area. Any corner will do.
+    triangles.push_back(ring.corner(ear));
+    next = ring.after(ear);
+    ring.cut(ear);
+  }
+  // From the first of those that are left.
+  const std::array<uint32_t, 3> last = ring.corner(next);
+  const uint32_t first = std::min({last[0], last[1], last[2]});
+  triangles.push_back({first, ring.after(first), ring.after(ring.after(first))});
   return triangles;
 }
 

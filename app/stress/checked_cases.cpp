@@ -10,6 +10,7 @@
 #include "app/dispatch/camera.h"
 #include "app/dispatch/trace_settings.h"
 #include "app/mesh/mesh_builder.h"
+#include "app/mesh/obj_file.h"
 #include "app/oracle/oracle_tracer.h"
 #include "app/stress/stress_cases.h"
 #include "app/stress/stress_judge.h"

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/mesh/mesh_builder.h"
+#include "app/mesh/obj_file.h"
 #include "app/stress/stress_cases.h"
 #include "app/stress/stress_scenes.h"
 

@@ -64,7 +64,10 @@ std::string flags_of(const RenderOptions& options) {
   if (options.light) add("--light", triple(*options.light));
   if (options.shadows) text += " --shadows";
   if (options.spp != 1) add("--spp", std::to_string(options.spp));
-  if (options.crease) add("--crease", number(*options.crease));
+  const MeshOptions& mesh = options.mesh;
+  if (mesh.crease_degrees) add("--crease", number(*mesh.crease_degrees));
+  if (mesh.weld > 0.0) add("--weld", number(mesh.weld));
+  if (mesh.repair) text += " --repair";
   return text;
 }
 

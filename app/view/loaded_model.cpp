@@ -13,7 +13,7 @@ void LoadedModel::request(const RenderOptions& render) {
   const bool may_need_tree =
       render.solver == SOLVER_ROBUST && (!render.accel || needs_bvh(*render.accel, render.shadows));
   loader_.ask(
-      {render.model, render.crease, {render.surface, render.alpha, render.shell}, may_need_tree});
+      {render.model, render.mesh, {render.surface, render.alpha, render.shell}, may_need_tree});
 }
 
 void LoadedModel::open(const RenderOptions& render) {
@@ -41,7 +41,7 @@ std::optional<LoadedModel::Change> LoadedModel::poll(RenderOptions& render, std:
 void LoadedModel::restore(RenderOptions& render, const SceneRequest& failed) {
   const SceneRequest& kept = current_->request;
   render.model = kept.model;
-  render.crease = kept.crease;
+  render.mesh = kept.mesh;
   render.surface = kept.choice.surface;
   render.alpha = kept.choice.alpha;
   render.shell = kept.choice.shell;

@@ -7,14 +7,14 @@
 
 #include "app/bake/bvh.h"
 #include "app/bake/subpatch_bounds.h"
-#include "app/mesh/mesh_builder.h"
 #include "app/mesh/obj_file.h"
 
 namespace trisect::view {
 namespace {
 
-// mesh: of an earlier request for the same model and crease, or null to read the file. before: the
-// scene that was baked from that mesh, whose tree can be refitted; summary: its summary.
+// mesh: of an earlier request for the same model and mesh options, or null to read the file.
+// before: the scene that was baked from that mesh, whose tree can be refitted; summary: its
+// summary.
 std::variant<ViewedScene, LoadFailure> load(const SceneRequest& request,
                                             std::shared_ptr<const Mesh> mesh,
                                             const std::shared_ptr<const BakedScene>& before,
@@ -22,7 +22,7 @@ std::variant<ViewedScene, LoadFailure> load(const SceneRequest& request,
   try {
     const bool is_known = mesh != nullptr;
     if (!is_known) {
-      BuiltMesh built = build_mesh(read_obj(request.model), request.model, request.crease);
+      BuiltMesh built = build_mesh(read_obj(request.model), request.model, request.mesh);
       summary = describe(built.report);
       mesh = std::make_shared<const Mesh>(std::move(built.mesh));
     }
@@ -52,7 +52,7 @@ void SceneLoader::ask(const SceneRequest& request) {
     return;
   }
   const bool same_mesh =
-      mesh_ && mesh_request_.model == request.model && mesh_request_.crease == request.crease;
+      mesh_ && mesh_request_.model == request.model && mesh_request_.mesh == request.mesh;
   running_ =
       std::async(std::launch::async, load, request, same_mesh ? mesh_ : nullptr, scene_, summary_);
 }

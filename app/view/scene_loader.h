@@ -10,13 +10,14 @@
 
 #include "app/bake/bake.h"
 #include "app/mesh/mesh.h"
+#include "app/mesh/mesh_builder.h"
 #include "app/surface/surface_choice.h"
 
 namespace trisect::view {
 
 struct SceneRequest {
   std::string model;
-  std::optional<double> crease;
+  MeshOptions mesh;
   SurfaceChoice choice;
   bool tree = false;  // whether the scene needs its bvh
 

@@ -49,7 +49,7 @@ RenderOptions ViewState::render_options() const {
   // Not those of the settings, whose scene may still be loading.
   const SceneRequest& shown = model.shown();
   render.model = shown.model;
-  render.crease = shown.crease;
+  render.mesh = shown.mesh;
   render.surface = shown.choice.surface;
   render.alpha = shown.choice.alpha;
   render.shell = shown.choice.shell;

@@ -92,7 +92,7 @@ TEST(FiniteScene, WithSmallIntegersForEveryCoordinate) {
     }
     const std::array<uint32_t, 12> indices{0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2};
     try {
-      const Mesh mesh = build_mesh(positions, normals, indices, std::nullopt).mesh;
+      const Mesh mesh = build_mesh(positions, normals, indices).mesh;
       expect_finite(mesh, fmt::format("mesh {}", k));
       without_surface +=
           count_without_surface(bake(stress::joined(mesh, stress::leaning_patch(10.0), {}),

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "app/mesh/mesh_builder.h"
+#include "app/mesh/obj_file.h"
 #include "tests/support/file_content.h"
 #include "tests/support/scenes.h"
 

@@ -3,16 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "app/base/error.h"
+#include "app/mesh/obj_file.h"
 
 namespace trisect {
 namespace {
 
 using glm::dvec3;
 
-BuiltMesh build(const std::string& text, std::optional<double> crease = std::nullopt) {
-  return build_mesh(parse_obj(text, "model.obj"), "model.obj", crease);
+BuiltMesh build(const std::string& text, const MeshOptions& options = {}) {
+  return build_mesh(parse_obj(text, "model.obj"), "model.obj", options);
 }
 
 // A cube of quadrilaterals without normals, seen from outside.
@@ -143,11 +146,11 @@ TEST(BuildMesh, CountsHardOpenNonManifoldAndFlippedEdges) {
 }
 
 TEST(BuildMesh, CreaseAngleSplitsOrJoinsNormals) {
-  EXPECT_EQ(build(kCube, 89.0).report.hard_edges, 12U);
-  EXPECT_EQ(build(kCube, 91.0).report.hard_edges, 0U);
+  EXPECT_EQ(build(kCube, {.crease_degrees = 89.0}).report.hard_edges, 12U);
+  EXPECT_EQ(build(kCube, {.crease_degrees = 91.0}).report.hard_edges, 0U);
   // The file's own normals give way.
   const std::string sheet = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 1\nf 1//1 2//1 3//1\n";
-  const BuiltMesh rebuilt = build(sheet, 30.0);
+  const BuiltMesh rebuilt = build(sheet, {.crease_degrees = 30.0});
   EXPECT_EQ(rebuilt.report.normals, NormalSource::welded);
   EXPECT_EQ(rebuilt.mesh.normals[rebuilt.mesh.triangles[0].normal[0]], dvec3(0, 0, 1));
 }
@@ -163,10 +166,118 @@ TEST(BuildMesh, KeepsEveryTriangleOfConvexAndConcavePolygons) {
   }
 }
 
+// The normals at a vertex, by its position.
+std::vector<dvec3> normals_at(const Mesh& mesh, const dvec3& position) {
+  std::vector<dvec3> normals;
+  for (const MeshTriangle& t : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (mesh.positions[t.vertex[i]] == position) normals.push_back(mesh.normals[t.normal[i]]);
+    }
+  }
+  return normals;
+}
+
+TEST(BuildMesh, GivesSolidsThatTouchInAPointNormalsOfTheirOwn) {
+  // Two tetrahedra, point to point: together the faces around the point cancel out.
+  const std::string up = "v 0 0 0\nv 1 0 1\nv -1 1 1\nv -1 -1 1\n";
+  const std::string down = "v 0 0 0\nv 1 0 -1\nv -1 1 -1\nv -1 -1 -1\n";
+  const std::string faces_up = "f -4 -3 -2\nf -4 -2 -1\nf -4 -1 -3\nf -3 -1 -2\n";
+  const std::string faces_down = "f -4 -2 -3\nf -4 -1 -2\nf -4 -3 -1\nf -3 -2 -1\n";
+  const auto alone = normals_at(build(up + faces_up).mesh, dvec3(0.0));
+  const auto both = normals_at(build(up + faces_up + down + faces_down).mesh, dvec3(0.0));
+  ASSERT_EQ(alone.size(), 3U);
+  ASSERT_EQ(both.size(), 6U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(both[i], alone[0]);
+    EXPECT_LT(glm::distance(both[i + 3], alone[0] * dvec3(1, 1, -1)), kSomeRoundings);
+  }
+}
+
+TEST(BuildMesh, KeepsSmoothingGroupsApart) {
+  // The faces of kCube, the first two and the last four of a group each, and each of its own.
+  const auto with_groups = [&](const std::vector<std::string>& groups) {
+    std::string text = kCube;
+    std::size_t at = 0;
+    for (const std::string& group : groups) {
+      at = text.find("\nf ", at) + 1;
+      if (!group.empty()) text.insert(at, "s " + group + "\n");
+      at = text.find("f ", at);
+    }
+    return build(text).report;
+  };
+  EXPECT_EQ(with_groups({"1", "", "", "", "", ""}).hard_edges, 0U);
+  EXPECT_EQ(with_groups({"1", "2", "4", "8", "16", "32"}).hard_edges, 12U);
+  // The diagonals of the faces too: each triangle is flat, but a face's two lie in one plane.
+  EXPECT_EQ(with_groups({"off", "", "", "", "", ""}).hard_edges, 12U);
+  // A can: the sides are smooth among themselves.
+  EXPECT_EQ(with_groups({"1", "2", "3", "", "", ""}).hard_edges, 8U);
+}
+
+TEST(BuildMesh, PassesOverRepeatedCornersAndSpikes) {
+  const std::string dart = "v -3 0 0\nv 3 1 0\nv 0 6 0\nv -1 1 0\nv 9 9 0\n";
+  const auto area_of = [](const BuiltMesh& built) {
+    double area = 0.0;
+    for (const MeshTriangle& t : built.mesh.triangles) {
+      const auto& p = built.mesh.positions;
+      area += glm::cross(p[t.vertex[1]] - p[t.vertex[0]], p[t.vertex[2]] - p[t.vertex[0]]).z / 2.0;
+    }
+    return area;
+  };
+  const double area = area_of(build(dart + "f 1 2 3 4\n"));
+  for (const char* face : {"f 1 2 3 3 4 1", "f 1 1 1 2 3 4 4", "f 1 2 5 2 3 4", "f 1 2 3 4 5 4",
+                           "f 5 1 2 3 4 1", "f 1 2 5 5 2 2 3 4 1 1"}) {
+    const BuiltMesh built = build(dart + face + "\n");
+    EXPECT_EQ(built.report.triangles, 2U) << face;
+    EXPECT_EQ(built.report.degenerate_dropped, 0U) << face;
+    EXPECT_NEAR(area_of(built), area, kSomeRoundings) << face;
+  }
+  EXPECT_EQ(build(dart + "f 1 2 3\nf 1 2 1 2\nf 1 2 3 2\n").report.degenerate_dropped, 2U);
+}
+
+TEST(BuildMesh, WeldsVerticesThatAreCloseOnDemand) {
+  // The second triangle's copies are off by a millionth, on either side of a cell's border.
+  const std::string text =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nv 0.999999 -0.000001 0\nv 1 1 1\nv 0 1.000001 0\nf 4 5 "
+      "6\n";
+  EXPECT_EQ(build(text).report.open_edges, 6U);
+  EXPECT_EQ(build(text, {.weld = 1e-7}).report.open_edges, 6U);
+  const BuiltMesh welded = build(text, {.weld = 1e-5});
+  EXPECT_EQ(welded.report.open_edges, 4U);
+  EXPECT_EQ(welded.report.vertices, 4U);
+  EXPECT_EQ(welded.mesh.positions[1], dvec3(1, 0, 0));
+}
+
+TEST(BuildMesh, RepairsWindingOnDemand) {
+  const std::string cube = kCube;
+  // One face turned: its two triangles.
+  std::string text = cube;
+  text.replace(text.find("f 5 6 7 8"), 9, "f 8 7 6 5");
+  EXPECT_EQ(build(text).report.flipped_edges, 4U);
+  const BuiltMesh repaired = build(text, {.repair = true});
+  EXPECT_EQ(repaired.report.flipped_edges, 0U);
+  EXPECT_EQ(repaired.report.turned, 2U);
+  EXPECT_EQ(build(cube, {.repair = true}).report.turned, 0U);
+  // Inside out all over, which its edges do not tell.
+  std::string inside_out = cube.substr(0, cube.find("f "));
+  inside_out += "f 1 2 3 4\nf 8 7 6 5\nf 5 6 2 1\nf 6 7 3 2\nf 7 8 4 3\nf 8 5 1 4\n";
+  EXPECT_EQ(build(inside_out).report.flipped_edges, 0U);
+  EXPECT_EQ(build(inside_out, {.repair = true}).report.turned, 12U);
+  // Of an open strip the one that differs.
+  const std::string strip =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 2 0\nf 1 2 3\nf 2 3 4\nf 3 4 5\n";
+  const BuiltMesh straight = build(strip, {.repair = true});
+  EXPECT_EQ(straight.report.turned, 1U);
+  EXPECT_EQ(straight.report.flipped_edges, 0U);
+}
+
 TEST(BuildMesh, DescribesItselfInOneLine) {
   EXPECT_EQ(describe(build(kCube).report),
             "12 triangles, 8 vertices, normals angle-weighted over welded vertices, 0 degenerate "
             "triangles dropped, 0 hard edges, 0 open edges, 0 non-manifold edges");
+  EXPECT_EQ(describe(build("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 1 2\n").report),
+            "1 triangles, 3 vertices, normals angle-weighted over welded vertices, 0 degenerate "
+            "triangles dropped, 0 hard edges, 3 open edges, 0 non-manifold edges, 1 line element "
+            "left out");
 }
 
 }  // namespace

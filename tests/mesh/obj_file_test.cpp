@@ -1,10 +1,12 @@
 #include "app/mesh/obj_file.h"
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <fstream>
 
 #include "app/base/error.h"
+#include "tests/support/file_content.h"
 #include "tests/support/temporary_folder.h"
 
 namespace trisect {
@@ -12,7 +14,7 @@ namespace {
 
 constexpr const char* kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
-ObjFile parse(const std::string& text) {
+PolygonModel parse(const std::string& text) {
   return parse_obj(text, "model.obj");
 }
 
@@ -27,7 +29,7 @@ std::string complaint(const std::string& text) {
 }
 
 TEST(ObjFile, ReadsPositionsNormalsAndPolygons) {
-  const ObjFile file = parse(std::string(kSquare) + "vn 0 0 2\nf 1//1 2//1 3//1 4//1\n");
+  const PolygonModel file = parse(std::string(kSquare) + "vn 0 0 2\nf 1//1 2//1 3//1 4//1\n");
   ASSERT_EQ(file.positions.size(), 4U);
   EXPECT_EQ(file.positions[2], glm::dvec3(1, 1, 0));
   ASSERT_EQ(file.normals.size(), 1U);
@@ -40,17 +42,17 @@ TEST(ObjFile, ReadsPositionsNormalsAndPolygons) {
 TEST(ObjFile, ReadsEveryFormOfCorner) {
   const std::string data = std::string(kSquare) + "vt 0 0\nvn 0 0 1\n";
   for (const char* face : {"f 1 2 3", "f 1/1 2/1 3/1", "f 1//1 2//1 3//1", "f 1/1/1 2/1/1 3/1/1"}) {
-    const ObjFile file = parse(data + face);
+    const PolygonModel file = parse(data + face);
     ASSERT_EQ(file.corners.size(), 3U) << face;
     EXPECT_EQ(file.corners[2].position, 2U) << face;
     const bool has_normal = std::string(face).find("1/1/1") != std::string::npos ||
                             std::string(face).find("//") != std::string::npos;
-    EXPECT_EQ(file.corners[0].normal, has_normal ? 0U : ObjCorner::no_normal) << face;
+    EXPECT_EQ(file.corners[0].normal, has_normal ? 0U : PolygonCorner::no_normal) << face;
   }
 }
 
 TEST(ObjFile, NegativeIndicesCountFromTheLastOneSoFar) {
-  const ObjFile file =
+  const PolygonModel file =
       parse(std::string(kSquare) + "vn 1 0 0\nvn 0 0 1\nf -4//-1 -3//-1 -2//-2\nv 9 9 9\n");
   EXPECT_EQ(file.corners[0].position, 0U);
   EXPECT_EQ(file.corners[2].position, 2U);
@@ -59,7 +61,7 @@ TEST(ObjFile, NegativeIndicesCountFromTheLastOneSoFar) {
 }
 
 TEST(ObjFile, GathersAllGroupsAndObjects) {
-  const ObjFile file =
+  const PolygonModel file =
       parse(std::string(kSquare) +
             "g one\nf 1 2 3\ng two three\nusemtl red\ns 1\nf 1 3 4\no last\nf 2 3 4\n");
   EXPECT_EQ(file.sizes.size(), 3U);
@@ -83,24 +85,125 @@ TEST(ObjFile, TakesLineEndsMarksAndTheEndOfTheFileAsTheyCome) {
     dos_text.push_back(c);
   }
   for (const std::string& text : {unix_text, dos_text, std::string("\xEF\xBB\xBF") + unix_text}) {
-    const ObjFile file = parse(text);
+    const PolygonModel file = parse(text);
     EXPECT_EQ(file.positions.size(), 4U);
     EXPECT_EQ(file.sizes.size(), 2U);
   }
 }
 
 TEST(ObjFile, PassesOverComments) {
-  const ObjFile file = parse("# v 9\nv 0 0 0 # origin\nv 1 0 0\nv 0 1 0#\nf 1 2 3 # f 1 2\n");
+  const PolygonModel file = parse("# v 9\nv 0 0 0 # origin\nv 1 0 0\nv 0 1 0#\nf 1 2 3 # f 1 2\n");
   EXPECT_EQ(file.positions.size(), 3U);
   EXPECT_EQ(file.sizes, std::vector<uint32_t>{3});
 }
 
 TEST(ObjFile, KeepsDoublePrecision) {
-  const ObjFile file = parse("v 1000000.0000001 -1e-3 +2.5E2\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const PolygonModel file = parse("v 1000000.0000001 -1e-3 +2.5E2\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   // The parser sums decimal digits in double precision: right to some ten units in the last place.
   EXPECT_NEAR(file.positions[0].x, 1000000.0000001, 1e-8);
   EXPECT_NEAR(file.positions[0].y, -1e-3, 1e-17);
   EXPECT_NEAR(file.positions[0].z, 250.0, 1e-12);
+}
+
+// The notes of a text, in one line.
+std::string notes_of(const std::string& text) {
+  std::string all;
+  for (const std::string& note : parse(text).notes) all += (all.empty() ? "" : ", ") + note;
+  return all;
+}
+
+TEST(ObjFile, TakesCornersOfWhichPartsAreLeftOut) {
+  for (const char* face :
+       {"f 1/ 2/ 3/", "f 1// 2// 3//", "f +1 +2 +3", "f 1/1/0 2//0 3/0/", "f 1/9/ 2/9 3"}) {
+    const PolygonModel file = parse(std::string(kSquare) + "vn 0 0 1\n" + face);
+    ASSERT_EQ(file.corners.size(), 3U) << face;
+    for (uint32_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(file.corners[i].position, i) << face;
+      EXPECT_EQ(file.corners[i].normal, PolygonCorner::no_normal) << face;
+    }
+  }
+}
+
+TEST(ObjFile, TakesFacesBeforeTheirVertices) {
+  const PolygonModel file =
+      parse("f 1//2 2//1 3//1\nv 0 0 0\nf -1 2 3\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvn 1 0 0\n");
+  ASSERT_EQ(file.corners.size(), 6U);
+  EXPECT_EQ(file.corners[0].normal, 1U);
+  EXPECT_EQ(file.corners[2].position, 2U);
+  EXPECT_EQ(file.corners[3].position, 0U);
+}
+
+TEST(ObjFile, JoinsContinuedLines) {
+  const PolygonModel file = parse(
+      "v 0 0 \\\n0\nv 1 0 0\r\nv 1 \\ \r\n 1 0\nv 0 1 0\nf 1 2 \\\n3 \\\n4 \\\n\n"
+      "usemtl odd\\\nf 1 2 3");
+  EXPECT_EQ(file.positions.size(), 4U);
+  EXPECT_EQ(file.positions[2], glm::dvec3(1, 1, 0));
+  EXPECT_EQ(file.sizes, (std::vector<uint32_t>{4, 3}));
+}
+
+TEST(ObjFile, TakesNumbersThatAreTooSmallForZero) {
+  const PolygonModel file = parse("v 0 0 1e-400\nv 1 0 -5.53848e-321\nv 1 1 1e-310\nf 1 2 3\n");
+  EXPECT_EQ(file.positions[0].z, 0.0);
+  EXPECT_NEAR(file.positions[1].z, 0.0, 1e-320);
+}
+
+TEST(ObjFile, SaysWhatItLeavesOut) {
+  const std::string square = std::string(kSquare) + "f 1 2 3 4\n";
+  EXPECT_EQ(notes_of(square + "g a\nvt 0 0\n"), "");
+  EXPECT_EQ(
+      notes_of(square + "p 1 2\nl 1 2 3\nl 3 4\nf 1\nf 1 2\n"),
+      "1 point element left out, 2 line elements left out, 2 faces of one or two corners left "
+      "out");
+  EXPECT_EQ(notes_of(square + "cstype bezier\ndeg 3\ncurv 0 1 1 2 3 4\nparm u 0 1\nend\nsurf 0 1 0 "
+                              "1 1 2 3 4\nend\n"),
+            "1 curve left out, 1 free-form surface left out");
+  EXPECT_EQ(notes_of("v 0 0 0 1\nv 2 0 0 2\nv 2 2 0 0.5 0.5 0.5\nf 1 2 3\n"),
+            "1 vertex with a weight, which does not count");
+  EXPECT_EQ(notes_of("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1//1 2//2 3\n"),
+            "2 corners name a normal in a file that has none");
+}
+
+TEST(ObjFile, ReadsSmoothingGroups) {
+  const std::string square(kSquare);
+  EXPECT_TRUE(parse(square + "f 1 2 3\n").smoothing_groups.empty());
+  EXPECT_EQ(parse(square + "f 1 2 3\ns off\nf 1 2 3\ns 7\nf 1 2 3\nf 1 2\nf 1 3 4\ns 0\nf 1 2 4\n")
+                .smoothing_groups,
+            (std::vector<uint32_t>{1, 0, 7, 7, 0}));
+}
+
+TEST(ObjFile, ReadsUtf16) {
+  const std::string text = "# \xE4\n" + std::string(kSquare) + "f 1 2 3 4";
+  for (const bool high_first : {false, true}) {
+    std::string wide = high_first ? "\xFE\xFF" : "\xFF\xFE";
+    for (const char c : text) {
+      if (high_first) wide.push_back('\0');
+      wide.push_back(c);
+      if (!high_first) wide.push_back('\0');
+    }
+    EXPECT_EQ(parse(wide).sizes, std::vector<uint32_t>{4});
+  }
+}
+
+TEST(ObjFile, ReadsWhatGzipHasCompressed) {
+  const test::TemporaryFolder folder;
+  const std::string text = std::string(kSquare) + "f 1 2 3 4\n";
+  const std::string name = folder / "square.obj.gz";
+  gzFile file = gzopen(name.c_str(), "wb");
+  ASSERT_NE(file, nullptr);
+  ASSERT_EQ(gzwrite(file, text.data(), static_cast<unsigned>(text.size())),
+            static_cast<int>(text.size()));
+  ASSERT_EQ(gzclose(file), Z_OK);
+  EXPECT_EQ(read_obj(name).sizes, std::vector<uint32_t>{4});
+  // Two streams, one after the other, are one file; a part of one is none.
+  const std::string bytes = test::content_of(name);
+  std::ofstream(folder / "twice.gz", std::ios::binary) << bytes << bytes;
+  EXPECT_EQ(read_obj(folder / "twice.gz").sizes, (std::vector<uint32_t>{4, 4}));
+  for (const std::size_t size : {std::size_t{2}, bytes.size() / 2, bytes.size() - 1}) {
+    const std::string cut = folder / "cut.gz";
+    std::ofstream(cut, std::ios::binary) << bytes.substr(0, size);
+    EXPECT_THROW(read_obj(cut), InputError) << size;
+  }
 }
 
 TEST(ObjFile, NamesTheFileAndTheLineOfWhatIsWrong) {
@@ -111,26 +214,33 @@ TEST(ObjFile, NamesTheFileAndTheLineOfWhatIsWrong) {
   EXPECT_EQ(complaint("v 0 0 0\nvn inf 0 1\n"), "model.obj, line 2: 'inf' is not a finite number.");
   EXPECT_EQ(complaint("v 1e999 0 0\n"), "model.obj, line 1: '1e999' is not a finite number.");
   EXPECT_EQ(complaint("v 1 2\n"), "model.obj, line 1: 'v' has fewer than three coordinates.");
-  EXPECT_EQ(complaint(square + "f 1 2\n"),
-            "model.obj, line 5: a face has 2 corners, fewer than three.");
   EXPECT_EQ(complaint(square + "f 1 2 x\n"), "model.obj, line 5: 'x' is not a corner of a face.");
   EXPECT_EQ(complaint(square + "f 1 2 1.5\n"),
             "model.obj, line 5: '1.5' is not a corner of a face.");
   EXPECT_EQ(complaint(square + "f 1 2 5\n"),
-            "model.obj, line 5: the face names vertex 5, but there are 4 so far.");
+            "model.obj, line 5: the face names vertex 5, but there are 4.");
   EXPECT_EQ(complaint(square + "\n# note\nf 1 2 -5\n"),
             "model.obj, line 7: the face names vertex -5, but there are 4 so far.");
   EXPECT_EQ(complaint(square + "f 0 1 2\n"), "model.obj, line 5: '0' is not a corner of a face.");
   EXPECT_EQ(complaint(square + "vn 0 0 1\nf 1//1 2//1 3//2\n"),
-            "model.obj, line 6: the face names normal 2, but there are 1 so far.");
-  for (const char* corner :
-       {"4294967297", "99999999999", "1-2", "1//0", "1/", "1//", "1/2/3/4", "-", "/1"}) {
+            "model.obj, line 6: the face names normal 2, but there are 1.");
+  for (const char* corner : {"4294967297", "99999999999", "1-2", "+-1", "1/2/3/4", "-", "/1"}) {
     EXPECT_EQ(complaint(square + "vn 0 0 1\nf 1 2 " + corner + "\n"),
               "model.obj, line 6: '" + std::string(corner) + "' is not a corner of a face.");
   }
-  EXPECT_EQ(complaint(square + "f 1 2 \\\n3\n"),
-            "model.obj, line 5: a line that is continued by a backslash is not supported.");
+  // The last line, without its end; a line that goes on over others; what comes after such a one.
+  EXPECT_EQ(complaint(square + "f 1 2 5"),
+            "model.obj, line 5: the face names vertex 5, but there are 4.");
+  EXPECT_EQ(complaint(square + "f 1 2 \\\n\\\n5\n"),
+            "model.obj, line 5: the face names vertex 5, but there are 4.");
+  EXPECT_EQ(complaint(square + "f 1 2 \\\n3\nv x 0 0\n"),
+            "model.obj, line 7: 'x' is not a finite number.");
+  EXPECT_EQ(complaint("v +-1 0 0\n"), "model.obj, line 1: '+-1' is not a finite number.");
+  EXPECT_EQ(complaint("s smooth\n"), "model.obj, line 1: 'smooth' is not a smoothing group.");
   EXPECT_EQ(complaint(square), "model.obj: the file has no faces.");
+  EXPECT_EQ(complaint(square + "l 1 2 3\nl 1 4\nf 1 2\n"),
+            "model.obj: the file has no faces; 2 line elements left out, 1 face of one or two "
+            "corners left out.");
   EXPECT_EQ(complaint(""), "model.obj: the file has no faces.");
 }
 
@@ -146,7 +256,7 @@ TEST(ObjFile, SaysWhyAFileCannotBeRead) {
   };
   const std::filesystem::path absent = folder / "absent.obj";
   EXPECT_EQ(complain(absent), absent.string() + ": cannot be opened: No such file or directory.");
-  EXPECT_EQ(complain(folder.path()), folder.path().string() + ": is a directory, not an OBJ file.");
+  EXPECT_EQ(complain(folder.path()), folder.path().string() + ": is a directory, not a model.");
   const std::filesystem::path noise = folder / "noise.obj";
   std::ofstream(noise, std::ios::binary) << std::string("\x00\xff\x01garbage\nf\nv", 14);
   EXPECT_EQ(complain(noise).find(noise.string()), 0U) << complain(noise);

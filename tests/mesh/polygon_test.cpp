@@ -75,6 +75,23 @@ TEST(Triangulate, CoversRandomStars) {
   }
 }
 
+// Corners by the ten thousand, as contours of maps and cut-outs have them.
+TEST(Triangulate, CoversPolygonsOfManyCorners) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> radius(0.9, 1.0);
+  constexpr int n = 20000;
+  std::vector<dvec3> star;
+  std::vector<dvec3> comb{{0, 0, 0}, {1, 0, 0}};
+  for (int i = 0; i < n; ++i) {
+    const double angle = 6.283185307179586 * i / n;
+    const double r = radius(random);
+    star.emplace_back(r * std::cos(angle), r * std::sin(angle), 0.0);
+    comb.emplace_back(1.0 - static_cast<double>(i) / n, i % 2 == 0 ? 1.0 : 0.5, 0.0);
+  }
+  expect_exact_cover(star);
+  expect_exact_cover(comb);
+}
+
 TEST(Triangulate, WorksInEveryPlane) {
   // The arrowhead in the planes x = 0 and y = 0: four points, two triangles, the same way around.
   const std::vector<dvec3> flat{{0, 2, 0}, {-1, -1, 0}, {0, 0, 0}, {1, -1, 0}};

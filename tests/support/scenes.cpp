@@ -8,6 +8,7 @@
 
 #include "app/cli/data_folder.h"
 #include "app/mesh/mesh_builder.h"
+#include "app/mesh/obj_file.h"
 
 namespace trisect::test {
 

@@ -43,10 +43,12 @@ void expect_same(const RenderOptions& a, const RenderOptions& b) {
   expect_same(a.light, b.light);
   EXPECT_EQ(a.shadows, b.shadows);
   EXPECT_EQ(bits(a.fov), bits(b.fov)) << a.fov;
-  ASSERT_EQ(a.crease.has_value(), b.crease.has_value());
-  if (a.crease) {
-    EXPECT_EQ(bits(*a.crease), bits(*b.crease)) << *a.crease;
+  ASSERT_EQ(a.mesh.crease_degrees.has_value(), b.mesh.crease_degrees.has_value());
+  if (a.mesh.crease_degrees) {
+    EXPECT_EQ(bits(*a.mesh.crease_degrees), bits(*b.mesh.crease_degrees));
   }
+  EXPECT_EQ(bits(a.mesh.weld), bits(b.mesh.weld)) << a.mesh.weld;
+  EXPECT_EQ(a.mesh.repair, b.mesh.repair);
   EXPECT_EQ(a.spp, b.spp);
 }
 
@@ -81,7 +83,7 @@ RenderOptions all_options() {
   options.light = glm::dvec3(-1.0, 2.0, -3.0);
   options.shadows = true;
   options.fov = 100.0 / 3.0;
-  options.crease = 0.1;
+  options.mesh = {0.1, 1e-7, true};
   options.spp = 16;
   return options;
 }
@@ -96,7 +98,8 @@ TEST(Flags, AreShort) {
             "--size 1x16384 --surface sphere --alpha 0.3333333333333333 --shell height "
             "--solver robust --accel bvh --eye -0.3333333333333333,0.1,1e-300 "
             "--target -0,-1000000000000,5e-324 --up -0.1,-0.2,0.30000000000000004 "
-            "--fov 33.333333333333336 --light -1,2,-3 --shadows --spp 16 --crease 0.1");
+            "--fov 33.333333333333336 --light -1,2,-3 --shadows --spp 16 --crease 0.1 --weld 1e-07 "
+            "--repair");
 }
 
 TEST(Flags, ReadBackBitForBit) {
@@ -129,7 +132,7 @@ TEST(Flags, ReadBackWhatIsRoundedTwice) {
   RenderOptions options;
   options.alpha = 0.4286789683249492;
   options.fov = 5.359060314708882;
-  options.crease = 5.359060314708882;
+  options.mesh.crease_degrees = 5.359060314708882;
   expect_round_trip(options);
 }
 
@@ -151,7 +154,7 @@ TEST(Flags, ReadBackAnyNumbers) {
     options.up = point();
     options.light = point();
     options.fov = 1.0 + 169.0 * from_0_to_1(random);
-    options.crease = 180.0 * from_0_to_1(random);
+    options.mesh.crease_degrees = 180.0 * from_0_to_1(random);
     expect_round_trip(options);
   }
 }
