@@ -2,7 +2,7 @@
 //
 //   #include <trisect/trisect.h>
 //   using namespace trisect;
-//   const BuiltMesh built = build_mesh(read_obj("teapot.obj"), "teapot.obj");
+//   const BuiltMesh built = build_mesh(read_model("teapot.obj"), "teapot.obj");
 //   const BakedScene scene = bake_with_subpatches(built.mesh, {});
 //   const TraceSettings settings = framed_settings(built.mesh, scene, 800, 600);
 //   const TraceParams params = make_params(scene, settings);
@@ -30,7 +30,7 @@
 #include "app/frame/supersampling.h"
 #include "app/mesh/mesh.h"
 #include "app/mesh/mesh_builder.h"
-#include "app/mesh/obj_file.h"
+#include "app/mesh/model_file.h"
 #include "app/oracle/oracle.h"
 #include "app/oracle/oracle_tracer.h"
 #include "app/picture/image_file.h"

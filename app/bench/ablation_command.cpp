@@ -15,7 +15,7 @@
 #include "app/cli/json_text.h"
 #include "app/dispatch/pipeline_store.h"
 #include "app/mesh/mesh_builder.h"
-#include "app/mesh/obj_file.h"
+#include "app/mesh/model_file.h"
 #include "app/report/document.h"
 
 namespace trisect {
@@ -25,7 +25,7 @@ using bench::Ablation;
 int bench_ablation(const AblationOptions& options) {
   bench::expect_gnuplot();
   // Reads all models first, so that a bad one is reported before anything is measured.
-  for (const std::string& model : options.models) build_mesh(read_obj(model), model);
+  for (const std::string& model : options.models) build_mesh(read_model(model), model);
   const gpu::Instance instance(false);
   const gpu::Device device(instance, options.device);
   const PipelineStore store(device, cache_folder());

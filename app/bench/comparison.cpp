@@ -11,6 +11,7 @@
 #include "app/cli/progress_line.h"
 #include "app/dispatch/trace_settings.h"
 #include "app/mesh/mesh_builder.h"
+#include "app/mesh/model_file.h"
 #include "app/mesh/obj_file.h"
 #include "app/oracle/oracle_tracer.h"
 
@@ -44,7 +45,7 @@ Subject::Subject(const std::string& file, uint surface_choice, const ImageSize& 
     : model(model_name(file)),
       surface(surface_choice),
       size(image_size),
-      mesh(build_mesh(read_obj(file), file).mesh),
+      mesh(build_mesh(read_model(file), file).mesh),
       height(view_of(model, mesh, size, {surface, 0.65, SHELL_HEIGHT})),
       normal(view_of(model, mesh, size, {surface, 0.65, SHELL_NORMAL})) {
   normal.scene.bvh = build_bvh(normal.scene);

@@ -19,7 +19,7 @@
 #include "app/crosscheck/frame_comparison.h"
 #include "app/dispatch/pipeline_store.h"
 #include "app/mesh/mesh_builder.h"
-#include "app/mesh/obj_file.h"
+#include "app/mesh/model_file.h"
 #include "app/opengl/context.h"
 #include "app/picture/image_file.h"
 #include "app/report/document.h"
@@ -91,7 +91,7 @@ std::vector<Block> report_of(const std::vector<bench::Scene>& scenes,
 int bench_pareto(const ParetoOptions& options) {
   if (options.plots) bench::expect_gnuplot();
   // Reads all models first, so that a bad one is reported before anything is measured.
-  for (const std::string& model : options.models) build_mesh(read_obj(model), model);
+  for (const std::string& model : options.models) build_mesh(read_model(model), model);
   std::optional<bench::StressTable> hard;
   if (!options.hardcases.empty()) hard = bench::read_stress_table(options.hardcases);
   const gpu::Instance instance(false);

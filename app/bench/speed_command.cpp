@@ -24,7 +24,7 @@
 #include "app/dispatch/pipeline_store.h"
 #include "app/dispatch/trace_settings.h"
 #include "app/mesh/mesh_builder.h"
-#include "app/mesh/obj_file.h"
+#include "app/mesh/model_file.h"
 
 namespace trisect {
 namespace {
@@ -65,7 +65,7 @@ class Race {
  public:
   Race(const gpu::Device& device, const BenchOptions& options, const std::string& model,
        uint surface)
-      : options_(options), mesh_(build_mesh(read_obj(model), model).mesh) {
+      : options_(options), mesh_(build_mesh(read_model(model), model).mesh) {
     const SurfaceChoice normal{surface, 0.65, SHELL_NORMAL};
     double bake_ms = 0.0;
     scene_ = timed(bake_ms, [&] { return bake_with_subpatches(mesh_, normal); });

@@ -13,7 +13,7 @@ namespace trisect::bench {
 
 // The measurements of one contender on one model with one surface.
 struct SpeedRow {
-  std::string model;  // path of the OBJ file
+  std::string model;  // path of the file
   uint surface = SURFACE_PHONG;
   std::size_t patches = 0;
   std::string contender;

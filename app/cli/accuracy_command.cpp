@@ -20,7 +20,7 @@
 #include "app/dispatch/trace_settings.h"
 #include "app/dispatch/vulkan_tracer.h"
 #include "app/mesh/mesh_builder.h"
-#include "app/mesh/obj_file.h"
+#include "app/mesh/model_file.h"
 #include "app/oracle/oracle_tracer.h"
 
 namespace trisect {
@@ -78,7 +78,7 @@ std::string verdict(const AccuracyRow& row) {
 
 std::vector<AccuracyRow> measure_model(const gpu::Device& device, const AccuracyOptions& options,
                                        const std::string& model) {
-  const Mesh mesh = build_mesh(read_obj(model), model).mesh;
+  const Mesh mesh = build_mesh(read_model(model), model).mesh;
   std::vector<AccuracyRow> rows;
   for (const uint surface : options.surfaces) {
     for (const uint shell : options.shells) {

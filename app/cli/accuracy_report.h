@@ -12,7 +12,7 @@ namespace trisect {
 
 // One solver's frame of one model, surface and shell.
 struct AccuracyRow {
-  std::string model;  // path of the OBJ file
+  std::string model;  // path of the file
   SurfaceChoice choice;
   uint solver = SOLVER_ROBUST;
   Accuracy accuracy;

@@ -27,7 +27,7 @@ uint shell_of(const std::string& name) {
 }
 
 void add_models(CLI::App& command, std::vector<std::string>& models) {
-  command.add_option("MODEL", models, "OBJ files")
+  command.add_option("MODEL", models, "OBJ, glTF, PLY, STL or FBX files")
       ->required()
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }

@@ -12,7 +12,7 @@
 #include "app/cli/progress_line.h"
 #include "app/frame/supersampling.h"
 #include "app/mesh/mesh_builder.h"
-#include "app/mesh/obj_file.h"
+#include "app/mesh/model_file.h"
 #include "vk/instance.h"
 
 namespace trisect {
@@ -69,7 +69,7 @@ TraceSettings settings_of(const RenderOptions& options, const Mesh& mesh, const 
 LoadedScene load_scene(const RenderOptions& options) {
   LoadedScene loaded{};
   const BuiltMesh built = timed("reading " + options.model, loaded.load_ms, [&] {
-    return build_mesh(read_obj(options.model), options.model, options.mesh);
+    return build_mesh(read_model(options.model), options.model, options.mesh);
   });
   fmt::print("{}: {}\n", options.model, describe(built.report));
   loaded.scene = timed("baking", loaded.bake_ms, [&] {

@@ -28,7 +28,9 @@ std::optional<Accel> accel_of(const std::string& name) {
 
 void add_scene(CLI::App& command, RenderOptions& options, SceneText& text) {
   // As for the options of add_view, the last one counts.
-  command.add_option("MODEL", options.model, "OBJ file")->required()->take_last();
+  command.add_option("MODEL", options.model, "OBJ, glTF, PLY, STL or FBX file")
+      ->required()
+      ->take_last();
   add_view(command, options, text);
   add_gl_path(command, text.gl_path);
   add_device(command, options.device);

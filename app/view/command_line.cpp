@@ -12,7 +12,8 @@ CommandLine::CommandLine(CLI::App& app) {
   options_.shaders = data_folder("shaders", TRISECT_SHADERS).string();
   options_.render.model = options_.assets + "/teapot.obj";
   add_view(command, options_.render, text_);
-  command.add_option("MODEL", options_.render.model, "OBJ file, default the teapot");
+  command.add_option("MODEL", options_.render.model,
+                     "OBJ, glTF, PLY, STL or FBX file, default the teapot");
   add_spp(command, options_.render.spp);
   command
       .add_option("--frame-ms", options_.frame_ms,

@@ -7,7 +7,7 @@
 
 #include "app/bake/bvh.h"
 #include "app/bake/subpatch_bounds.h"
-#include "app/mesh/obj_file.h"
+#include "app/mesh/model_file.h"
 
 namespace trisect::view {
 namespace {
@@ -22,7 +22,7 @@ std::variant<ViewedScene, LoadFailure> load(const SceneRequest& request,
   try {
     const bool is_known = mesh != nullptr;
     if (!is_known) {
-      BuiltMesh built = build_mesh(read_obj(request.model), request.model, request.mesh);
+      BuiltMesh built = build_mesh(read_model(request.model), request.model, request.mesh);
       summary = describe(built.report);
       mesh = std::make_shared<const Mesh>(std::move(built.mesh));
     }

@@ -9,6 +9,7 @@
 #include "app/cli/cache_folder.h"
 #include "app/cli/load_scene.h"
 #include "app/dispatch/accel.h"
+#include "app/mesh/model_file.h"
 
 namespace trisect::view {
 namespace {
@@ -17,7 +18,7 @@ std::vector<std::string> models_in(const std::filesystem::path& folder) {
   std::vector<std::string> models;
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    if (entry.path().extension() == ".obj") models.push_back(entry.path().string());
+    if (is_model_name(entry.path())) models.push_back(entry.path().string());
   }
   std::sort(models.begin(), models.end());
   return models;

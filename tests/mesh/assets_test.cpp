@@ -5,7 +5,7 @@
 #include <map>
 
 #include "app/mesh/mesh_builder.h"
-#include "app/mesh/obj_file.h"
+#include "app/mesh/model_file.h"
 #include "tests/support/file_content.h"
 #include "tests/support/scenes.h"
 
@@ -35,7 +35,7 @@ TEST(Assets, HaveTheTrianglesAndEdgesTheyShould) {
       {"relief", {80, 26, 0}},        {"saddle", {32, 16, 0}},        {"teapot", {304, 32, 0}},
       {"teapot-1000", {1016, 60, 0}}, {"teapot-4000", {4000, 116, 0}}};
   for (const auto& [name, expected] : models) {
-    const BuiltMesh built = build_mesh(read_obj(kGenerated / (name + ".obj")), name);
+    const BuiltMesh built = build_mesh(read_model(kGenerated / (name + ".obj")), name);
     EXPECT_EQ(built.report.triangles, expected.triangles) << name;
     EXPECT_EQ(built.report.open_edges, expected.open_edges) << name;
     EXPECT_EQ(built.report.hard_edges, expected.hard_edges) << name;

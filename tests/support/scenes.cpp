@@ -8,7 +8,7 @@
 
 #include "app/cli/data_folder.h"
 #include "app/mesh/mesh_builder.h"
-#include "app/mesh/obj_file.h"
+#include "app/mesh/model_file.h"
 
 namespace trisect::test {
 
@@ -26,7 +26,7 @@ std::string asset_path(const std::string& name) {
 }
 
 Mesh load_asset(const std::string& name) {
-  return build_mesh(read_obj(asset_path(name)), name).mesh;
+  return build_mesh(read_model(asset_path(name)), name).mesh;
 }
 
 Mesh without_holes(Mesh mesh) {

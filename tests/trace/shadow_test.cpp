@@ -15,7 +15,7 @@
 #include "app/dispatch/cpu_tracer.h"
 #include "app/dispatch/vulkan_tracer.h"
 #include "app/mesh/mesh_builder.h"
-#include "app/mesh/obj_file.h"
+#include "app/mesh/model_file.h"
 #include "app/oracle/oracle_tracer.h"
 #include "tests/support/frame_difference.h"
 #include "tests/support/gpu.h"
@@ -238,7 +238,7 @@ TEST_F(Terminator, OfASphere) {
 TEST_F(Terminator, OfATeapot) {
   // The reference has 4000 curved triangles.
   const std::string path = data_folder("assets", TRISECT_GENERATED_ASSETS) / "teapot-4000.obj";
-  const Mesh mesh = build_mesh(read_obj(path), path).mesh;
+  const Mesh mesh = build_mesh(read_model(path), path).mesh;
   const Frame fine = trace(lit_from_side(mesh, kPhong, 400, 300), with_shadows(Accel::bvh));
   const auto lit_there = [&](const Lit&, std::size_t i) {
     return fine.colors[i].w > 0.0F && !is_dark(fine.colors[i]) &&

@@ -1,0 +1,140 @@
+#include "app/mesh/assimp_file.h"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "app/base/error.h"
+
+namespace trisect {
+namespace {
+
+using glm::dmat3;
+using glm::dmat4;
+using glm::dvec3;
+
+dmat4 matrix_of(const aiMatrix4x4& m) {
+  dmat4 matrix(1.0);
+  for (unsigned row = 0; row < 4; ++row) {
+    for (unsigned column = 0; column < 4; ++column) {
+      matrix[static_cast<int>(column)][static_cast<int>(row)] = static_cast<double>(m[row][column]);
+    }
+  }
+  return matrix;
+}
+
+dvec3 vector_of(const aiVector3D& v) {
+  return {v.x, v.y, v.z};
+}
+
+// Puts the meshes of a scene together.
+class Assembler {
+ public:
+  Assembler(const aiScene& scene, bool takes_normals, const std::string& name)
+      : scene_(scene), takes_normals_(takes_normals), name_(name) {}
+
+  PolygonModel assemble() {
+    // Without recursion, which a long chain of nodes could make too deep.
+    std::vector<std::pair<const aiNode*, dmat4>> waiting;
+    if (scene_.mRootNode != nullptr) waiting.emplace_back(scene_.mRootNode, dmat4(1.0));
+    while (!waiting.empty()) {
+      const auto [node, above] = waiting.back();
+      waiting.pop_back();
+      const dmat4 here = above * matrix_of(node->mTransformation);
+      for (unsigned i = 0; i < node->mNumMeshes; ++i) add(*scene_.mMeshes[node->mMeshes[i]], here);
+      for (unsigned i = node->mNumChildren; i > 0; --i) {
+        waiting.emplace_back(node->mChildren[i - 1], here);
+      }
+    }
+    note(points_, "point");
+    note(lines_, "line");
+    if (model_.sizes.empty()) {
+      throw InputError(fmt::format("{}: the file has no faces{}{}.", name_,
+                                   model_.notes.empty() ? "" : "; ",
+                                   fmt::join(model_.notes, ", ")));
+    }
+    return std::move(model_);
+  }
+
+ private:
+  void note(std::size_t count, const char* what) {
+    if (count > 0) {
+      model_.notes.push_back(fmt::format("{} {}{} left out", count, what, count == 1 ? "" : "s"));
+    }
+  }
+
+  void add(const aiMesh& mesh, const dmat4& matrix) {
+    const std::size_t first = model_.positions.size();
+    const std::size_t first_normal = model_.normals.size();
+    if (first + mesh.mNumVertices > 0xfffffffeU) {
+      throw InputError(name_ + ": has too many vertices.");
+    }
+    const bool has_normals = takes_normals_ && mesh.HasNormals();
+    const dmat3 m(matrix);
+    const bool mirrored = glm::determinant(m) < 0.0;
+    // The inverse transposed, times the determinant's size.
+    const dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+    const dmat3 turn = mirrored ? -cofactors : cofactors;
+    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+      const dvec3 position(matrix * glm::dvec4(vector_of(mesh.mVertices[i]), 1.0));
+      if (!std::isfinite(position.x + position.y + position.z)) {
+        throw InputError(fmt::format("{}: vertex {} is not three finite numbers.", name_, i));
+      }
+      model_.positions.push_back(position);
+      if (!has_normals) continue;
+      const dvec3 normal = turn * vector_of(mesh.mNormals[i]);
+      // One that is none is made.
+      const bool finite = std::isfinite(normal.x + normal.y + normal.z);
+      model_.normals.push_back(finite ? normal : dvec3(0.0));
+    }
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      if (face.mNumIndices < 3) {
+        ++(face.mNumIndices == 2 ? lines_ : points_);
+        continue;
+      }
+      for (unsigned k = 0; k < face.mNumIndices; ++k) {
+        const unsigned i = face.mIndices[mirrored ? face.mNumIndices - 1 - k : k];
+        if (i >= mesh.mNumVertices) {
+          throw InputError(
+              fmt::format("{}: a face names vertex {} of {}.", name_, i, mesh.mNumVertices));
+        }
+        model_.corners.push_back(
+            {static_cast<uint32_t>(first + i),
+             has_normals ? static_cast<uint32_t>(first_normal + i) : PolygonCorner::no_normal});
+      }
+      model_.sizes.push_back(face.mNumIndices);
+    }
+  }
+
+  const aiScene& scene_;
+  bool takes_normals_;
+  const std::string& name_;
+  PolygonModel model_;
+  std::size_t points_ = 0;
+  std::size_t lines_ = 0;
+};
+
+}  // namespace
+
+PolygonModel parse_by_assimp(std::string_view bytes, const std::string& format,
+                             const std::string& name) {
+  Assimp::Importer importer;
+  // From memory, so that nothing beside the file is read.
+  const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, format.c_str());
+  if (scene == nullptr) {
+    std::string reason = importer.GetErrorString();
+    while (reason.ends_with('.') || reason.ends_with('\n')) reason.pop_back();
+    throw InputError(fmt::format("{}: cannot be read as {}: {}.", name, format,
+                                 reason.empty() ? "it is damaged" : reason));
+  }
+  return Assembler(*scene, format != "stl", name).assemble();
+}
+
+}  // namespace trisect

@@ -1,0 +1,63 @@
+#!/bin/bash
+# Renders every model of Debian's assimp-testmodels in the formats that trisect reads, and writes docs/formats.md with what
+# became of each and docs/formats.jpg with the pictures (two minutes). Fails if one takes ten seconds, or ends in any way but
+# a picture or one sentence.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+. scripts/measure.sh
+ready build docs
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+models=/usr/share/assimp/models
+
+pictures=()
+number=0
+{
+  cat <<END
+# Models
+
+Written by \`scripts/formats.sh\` with Debian's assimp-testmodels $(dpkg-query -W -f '${Version}' assimp-testmodels).
+
+| format | read by | what of it |
+|---|---|---|
+| OBJ | tinyobjloader | polygons, normals, smoothing groups; ASCII, UTF-8, UTF-16 |
+| glTF 2.0, GLB | nlohmann-json, Draco, meshoptimizer | the scene's nodes with their transformations; triangles, strips, fans; morph targets and skins at rest; sparse and quantised accessors; KHR_draco_mesh_compression, EXT_meshopt_compression |
+| PLY | Assimp | polygons and normals, ASCII and binary |
+| STL | Assimp | facets, ASCII and binary; normals are made, for it has one for each facet only |
+| FBX | Assimp | all meshes with the transformations of their nodes |
+
+The format is told by the content, or, where that says nothing, by the ending of the name. Each may be compressed by gzip.
+Points and lines are left out. Units and axes stay as they are in the file. glTF is not read by tinygltf or Assimp because
+tinygltf 2.7 refuses buffers that only stand in for compressed ones and reads Draco's views unchecked, and Assimp 5.2 takes
+no quantised positions.
+
+![All of them](formats.jpg)
+
+|  | file | triangles | what trisect says |
+|---|---|---|---|
+END
+  while IFS= read -r file; do
+    number=$((number + 1))
+    picture=$work/$(printf %03d $number).png
+    code=0
+    timeout 10 build/release/trisect render "$models/$file" --size 200x150 --spp 4 -o "$picture" --stats "$work/a.json" \
+      >"$work/out" 2>"$work/err" || code=$?
+    if [ $code = 0 ]; then
+      said=$(head -1 "$work/out")
+      triangles=$(jq .patches "$work/a.json")
+      pictures+=(-label "$number" "$picture")
+    else
+      said=$(cat "$work/err")
+      triangles=""
+      if [ $code != 3 ] || [ "$(wc -l <"$work/err")" != 1 ]; then
+        echo "$file: exit $code: $said" >&2
+        exit 1
+      fi
+    fi
+    said=${said//"$models/$file"/}
+    said=$(sed -E 's/^trisect: //; s/^[:,] //; s/^[0-9]+ triangles, //' <<<"$said")
+    printf '| %d | %s | %s | %s |\n' $number "$file" "$triangles" "${said//"$models/"/}"
+  done < <(cd "$models" && find . -type f -regextype posix-extended -iregex '.*\.(obj|gltf|glb|ply|stl|fbx)' -printf '%P\n' | LC_ALL=C sort)
+} >"$work/formats.md"
+montage "${pictures[@]}" -tile 12x -geometry 100x75+2+2 -pointsize 9 -quality 80 "$work/formats.jpg"
+mv "$work/formats.md" "$work/formats.jpg" docs
