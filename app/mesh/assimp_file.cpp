@@ -19,7 +19,7 @@ using glm::dmat3;
 using glm::dmat4;
 using glm::dvec3;
 
-dmat4 matrix_of(const aiMatrix4x4& m) {
+dmat4 matrix_from(const aiMatrix4x4& m) {
   dmat4 matrix(1.0);
   for (unsigned row = 0; row < 4; ++row) {
     for (unsigned column = 0; column < 4; ++column) {
@@ -29,14 +29,14 @@ dmat4 matrix_of(const aiMatrix4x4& m) {
   return matrix;
 }
 
-dvec3 vector_of(const aiVector3D& v) {
+dvec3 vector_from(const aiVector3D& v) {
   return {v.x, v.y, v.z};
 }
 
 // Puts the meshes of a scene together.
-class Assembler {
+class AssimpScene {
  public:
-  Assembler(const aiScene& scene, bool takes_normals, const std::string& name)
+  AssimpScene(const aiScene& scene, bool takes_normals, const std::string& name)
       : scene_(scene), takes_normals_(takes_normals), name_(name) {}
 
   PolygonModel assemble() {
@@ -46,12 +46,13 @@ class Assembler {
     while (!waiting.empty()) {
       const auto [node, above] = waiting.back();
       waiting.pop_back();
-      const dmat4 here = above * matrix_of(node->mTransformation);
+      const dmat4 here = above * matrix_from(node->mTransformation);
       for (unsigned i = 0; i < node->mNumMeshes; ++i) add(*scene_.mMeshes[node->mMeshes[i]], here);
       for (unsigned i = node->mNumChildren; i > 0; --i) {
         waiting.emplace_back(node->mChildren[i - 1], here);
       }
     }
+    close_groups(model_.sizes.size(), model_.groups);
     note(points_, "point");
     note(lines_, "line");
     if (model_.sizes.empty()) {
@@ -82,17 +83,18 @@ class Assembler {
     const dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     const dmat3 turn = mirrored ? -cofactors : cofactors;
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-      const dvec3 position(matrix * glm::dvec4(vector_of(mesh.mVertices[i]), 1.0));
+      const dvec3 position(matrix * glm::dvec4(vector_from(mesh.mVertices[i]), 1.0));
       if (!std::isfinite(position.x + position.y + position.z)) {
         throw InputError(fmt::format("{}: vertex {} is not three finite numbers.", name_, i));
       }
       model_.positions.push_back(position);
       if (!has_normals) continue;
-      const dvec3 normal = turn * vector_of(mesh.mNormals[i]);
+      const dvec3 normal = turn * vector_from(mesh.mNormals[i]);
       // One that is none is made.
       const bool finite = std::isfinite(normal.x + normal.y + normal.z);
       model_.normals.push_back(finite ? normal : dvec3(0.0));
     }
+    add_group(mesh.mName.C_Str(), model_.sizes.size(), model_.groups);
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
       if (face.mNumIndices < 3) {
@@ -134,7 +136,7 @@ PolygonModel parse_by_assimp(std::string_view bytes, const std::string& format,
     throw InputError(fmt::format("{}: cannot be read as {}: {}.", name, format,
                                  reason.empty() ? "it is damaged" : reason));
   }
-  return Assembler(*scene, format != "stl", name).assemble();
+  return AssimpScene(*scene, format != "stl", name).assemble();
 }
 
 }  // namespace trisect

@@ -118,7 +118,7 @@ class Primitive {
   std::vector<uint32_t> packed_indices_;
 };
 
-dmat4 matrix_of(const json& node) {
+dmat4 local_matrix(const json& node) {
   const auto numbers = [&](const char* key, std::vector<double> otherwise) {
     const auto found = node.find(key);
     if (found == node.end()) return otherwise;
@@ -160,9 +160,9 @@ dmat3 for_normals(const dmat3& m) {
 }
 
 // Puts the meshes of a scene together.
-class Assembler {
+class GltfScene {
  public:
-  explicit Assembler(Data& data) : data_(data) {}
+  explicit GltfScene(Data& data) : data_(data) {}
 
   PolygonModel assemble() {
     const json& root = data_.root();
@@ -176,6 +176,7 @@ class Assembler {
     if (nodes == 0 && root.contains("meshes")) {
       for (const json& mesh : root.at("meshes")) add_mesh(mesh, json::object(), dmat4(1.0));
     }
+    close_groups(model_.sizes.size(), model_.groups);
     note(points_, "point primitive");
     note(lines_, "line primitive");
     note(without_positions_, "primitive without positions");
@@ -231,7 +232,7 @@ class Assembler {
     while (!waiting.empty()) {
       const auto [node, above] = waiting.back();
       waiting.pop_back();
-      const dmat4 here = above * matrix_of(data_.element("nodes", node));
+      const dmat4 here = above * local_matrix(data_.element("nodes", node));
       if (placed_[node]) {
         data_.fail(fmt::format("node {} has several parents, or is its own", node));
       }
@@ -254,6 +255,7 @@ class Assembler {
         weights = holder->at("weights").get<std::vector<double>>();
       }
     }
+    add_group(mesh.value("name", std::string()), model_.sizes.size(), model_.groups);
     for (const json& primitive : mesh.at("primitives")) {
       add_primitive(primitive, weights, node, matrix);
     }
@@ -414,7 +416,7 @@ PolygonModel parse_gltf(std::string_view bytes, const std::filesystem::path& pat
     if (!version.starts_with("2.")) {
       data.fail(fmt::format("is glTF {}; only glTF 2 is read", version));
     }
-    return Assembler(data).assemble();
+    return GltfScene(data).assemble();
   } catch (const json::exception& error) {
     std::string_view what(error.what());
     // Without "[json.exception.type_error.302] ".

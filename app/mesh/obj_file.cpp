@@ -36,6 +36,8 @@ struct OrderedText {
   std::string text;
   std::vector<std::size_t> line_of;        // the number in the file of each line
   std::vector<uint32_t> smoothing_groups;  // of each face
+  std::vector<PolygonGroup> objects;       // "o"
+  std::vector<PolygonGroup> groups;        // "g"
   bool has_groups = false;
   Counts counts;
 };
@@ -215,6 +217,12 @@ OrderedText ordered(std::string_view text, const std::string& name) {
         fail(fmt::format("'{}' is not a smoothing group", word));
       }
       group = word == "off" ? 0 : word == "on" ? 1 : static_cast<uint32_t>(*number);
+    } else if (key == "o" || key == "g") {
+      const std::size_t begin = words.find_first_not_of(" \t");
+      const std::size_t end = words.find_last_not_of(" \t\r");
+      const bool is_named = begin != std::string_view::npos;
+      add_group(is_named ? std::string(words.substr(begin, end + 1 - begin)) : std::string(),
+                out.smoothing_groups.size(), key == "o" ? out.objects : out.groups);
     } else {
       counts.points += key == "p" ? 1 : 0;
       counts.lines += key == "l" ? 1 : 0;
@@ -378,6 +386,9 @@ PolygonModel parse_obj(std::string_view file_text, const std::string& name) {
   }
   PolygonModel model = reader.finish(text.counts.lost_normals);
   model.notes = notes_of(text.counts);
+  // Objects are made of groups.
+  model.groups = std::move(text.objects.empty() ? text.groups : text.objects);
+  close_groups(model.sizes.size(), model.groups);
   if (text.has_groups) model.smoothing_groups = std::move(text.smoothing_groups);
   if (model.sizes.empty()) {
     throw InputError(fmt::format(

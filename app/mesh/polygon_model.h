@@ -1,6 +1,7 @@
 // What a model file holds: polygons, as it wrote them. build_mesh() makes a mesh of it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <string>
@@ -16,6 +17,12 @@ struct PolygonCorner {
   uint32_t normal;
 };
 
+// A mesh, object or group of a file.
+struct PolygonGroup {
+  std::string name;   // as in the file, possibly empty
+  std::size_t first;  // its first polygon; the last one is before the next group's first
+};
+
 // The polygons of all groups and objects of a file, in file order.
 struct PolygonModel {
   std::vector<glm::dvec3> positions;
@@ -25,9 +32,17 @@ struct PolygonModel {
   // Of each polygon: normals that are made are smooth between polygons of the same group; 0 is a
   // group of one polygon. Empty: all polygons are in one.
   std::vector<uint32_t> smoothing_groups;
+  std::vector<PolygonGroup> groups;  // those that have polygons; none if the file names none
   // What was left out, or is not taken as the file has it: phrases for a person, "3 lines left
   // out".
   std::vector<std::string> notes;
 };
+
+// Begins a group at the polygon `first`; one that has no polygons yet gives way. A first group that
+// begins later leaves those before it to one without a name.
+void add_group(std::string name, std::size_t first, std::vector<PolygonGroup>& groups);
+
+// Leaves out a last group without polygons. polygons: how many there are.
+void close_groups(std::size_t polygons, std::vector<PolygonGroup>& groups);
 
 }  // namespace trisect

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/base/error.h"
+#include "app/report/document.h"
 #include "tests/support/temporary_folder.h"
 
 namespace trisect {
@@ -19,33 +20,17 @@ namespace {
 using glm::dvec3;
 using nlohmann::json;
 
-std::string base64(const std::string& bytes) {
-  constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    uint32_t bits = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      bits = bits << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      text +=
-          i + k > bytes.size() ? '=' : digits[bits >> (18U - 6U * static_cast<unsigned>(k)) & 63U];
-    }
-  }
-  return text;
-}
-
 template <typename T>
-std::string bytes_of(const std::vector<T>& numbers) {
+std::string as_bytes(const std::vector<T>& numbers) {
   std::string bytes(numbers.size() * sizeof(T), '\0');
   std::memcpy(bytes.data(), numbers.data(), bytes.size());
   return bytes;
 }
 
 // A file with one buffer, to which accessors are added.
-class File {
+class GltfText {
  public:
-  File() {
+  GltfText() {
     root_["asset"]["version"] = "2.0";
     for (const char* key : {"accessors", "bufferViews", "meshes", "nodes"}) {
       root_[key] = json::array();
@@ -66,7 +51,7 @@ class File {
   template <typename T>
   std::size_t add(const std::vector<T>& numbers, uint32_t component_type, const char* type,
                   std::size_t columns, bool normalised = false) {
-    json accessor{{"bufferView", add_view(bytes_of(numbers))},
+    json accessor{{"bufferView", add_view(as_bytes(numbers))},
                   {"componentType", component_type},
                   {"type", type},
                   {"count", numbers.size() / columns}};
@@ -85,8 +70,9 @@ class File {
 
   [[nodiscard]] std::string text() const {
     json root = root_;
-    root["buffers"] = {{{"byteLength", bytes_.size()},
-                        {"uri", "data:application/octet-stream;base64," + base64(bytes_)}}};
+    root["buffers"] = {
+        {{"byteLength", bytes_.size()},
+         {"uri", "data:application/octet-stream;base64," + report::base64_of(bytes_)}}};
     return root.dump();
   }
   [[nodiscard]] std::string binary() const {
@@ -95,10 +81,10 @@ class File {
     std::string text = root.dump();
     text.resize((text.size() + 3) / 4 * 4, ' ');
     const auto chunk = [](uint32_t type, const std::string& bytes) {
-      return bytes_of(std::vector<uint32_t>{static_cast<uint32_t>(bytes.size()), type}) + bytes;
+      return as_bytes(std::vector<uint32_t>{static_cast<uint32_t>(bytes.size()), type}) + bytes;
     };
     const std::string chunks = chunk(0x4E4F534A, text) + chunk(0x004E4942, bytes_);
-    return "glTF" + bytes_of(std::vector<uint32_t>{2U, static_cast<uint32_t>(chunks.size() + 12)}) +
+    return "glTF" + as_bytes(std::vector<uint32_t>{2U, static_cast<uint32_t>(chunks.size() + 12)}) +
            chunks;
   }
   [[nodiscard]] const std::string& bytes() const { return bytes_; }
@@ -108,15 +94,15 @@ class File {
   std::string bytes_;
 };
 
-const std::vector<float> kSquare{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+const std::vector<float> kSquareCorners{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
 
-PolygonModel parse(const std::string& bytes) {
+PolygonModel parse_bytes(const std::string& bytes) {
   return parse_gltf(bytes, "model.gltf");
 }
 
-std::string complaint(const std::string& bytes) {
+std::string refusal(const std::string& bytes) {
   try {
-    parse(bytes);
+    parse_bytes(bytes);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -124,7 +110,7 @@ std::string complaint(const std::string& bytes) {
 }
 
 // The positions that the triangles' corners name, one triangle after the other.
-std::vector<dvec3> corners_of(const PolygonModel& model) {
+std::vector<dvec3> corner_points(const PolygonModel& model) {
   std::vector<dvec3> corners;
   for (const PolygonCorner& corner : model.corners) {
     corners.push_back(model.positions[corner.position]);
@@ -132,51 +118,64 @@ std::vector<dvec3> corners_of(const PolygonModel& model) {
   return corners;
 }
 
-File square(uint32_t mode = 4) {
-  File file;
-  file.add_mesh({{"attributes", {{"POSITION", file.add_vectors(kSquare)}}}, {"mode", mode}});
+GltfText square_file(uint32_t mode = 4) {
+  GltfText file;
+  file.add_mesh({{"attributes", {{"POSITION", file.add_vectors(kSquareCorners)}}}, {"mode", mode}});
   return file;
 }
 
 TEST(GltfFile, ReadsTrianglesAsTextAndAsBinary) {
-  File file;
-  const std::size_t positions = file.add_vectors(kSquare);
+  GltfText file;
+  const std::size_t positions = file.add_vectors(kSquareCorners);
   const std::size_t normals = file.add_vectors({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 2});
   const std::size_t indices = file.add(std::vector<uint16_t>{0, 1, 2, 0, 2, 3}, 5123, "SCALAR", 1);
   file.add_mesh(
       {{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}, {"indices", indices}});
   file.add_node({{"mesh", 0}});
   for (const std::string& bytes : {file.text(), file.binary()}) {
-    const PolygonModel model = parse(bytes);
+    const PolygonModel model = parse_bytes(bytes);
     EXPECT_EQ(model.sizes, (std::vector<uint32_t>{3, 3}));
     EXPECT_EQ(
-        corners_of(model),
+        corner_points(model),
         (std::vector<dvec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
     EXPECT_EQ(model.normals[model.corners[5].normal], dvec3(0, 0, 2));
     EXPECT_TRUE(model.notes.empty());
   }
 }
 
+TEST(GltfFile, KeepsTheNamesOfMeshes) {
+  GltfText file = square_file(6);
+  file.root()["meshes"][0]["name"] = "first";
+  file.add_mesh({{"attributes", {{"POSITION", 0}}}, {"mode", 1}});
+  file.add_mesh({{"attributes", {{"POSITION", 0}}}, {"mode", 6}});
+  const PolygonModel model = parse_bytes(file.text());
+  ASSERT_EQ(model.groups.size(), 2U);
+  EXPECT_EQ(model.groups[0].name, "first");
+  EXPECT_EQ(model.groups[0].first, 0U);
+  EXPECT_EQ(model.groups[1].name, "");
+  EXPECT_EQ(model.groups[1].first, 2U);
+}
+
 TEST(GltfFile, ReadsIndicesOfEverySize) {
   for (const uint32_t type : {5121U, 5123U, 5125U}) {
-    File file;
-    const std::size_t positions = file.add_vectors(kSquare);
+    GltfText file;
+    const std::size_t positions = file.add_vectors(kSquareCorners);
     const std::size_t indices =
         type == 5121   ? file.add(std::vector<uint8_t>{0, 1, 3}, type, "SCALAR", 1)
         : type == 5123 ? file.add(std::vector<uint16_t>{0, 1, 3}, type, "SCALAR", 1)
                        : file.add(std::vector<uint32_t>{0, 1, 3}, type, "SCALAR", 1);
     file.add_mesh({{"attributes", {{"POSITION", positions}}}, {"indices", indices}});
-    EXPECT_EQ(corners_of(parse(file.text()))[2], dvec3(0, 1, 0)) << type;
+    EXPECT_EQ(corner_points(parse_bytes(file.text()))[2], dvec3(0, 1, 0)) << type;
   }
 }
 
 TEST(GltfFile, TurnsStripsAndFansTheSameWay) {
   // Corners 0, 1, 3, 2 make a strip of the square, 0, 1, 2, 3 a fan.
-  File strip;
+  GltfText strip;
   const std::size_t positions = strip.add_vectors({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0});
   strip.add_mesh({{"attributes", {{"POSITION", positions}}}, {"mode", 5}});
-  for (const File& file : {strip, square(6)}) {
-    const std::vector<dvec3> corners = corners_of(parse(file.text()));
+  for (const GltfText& file : {strip, square_file(6)}) {
+    const std::vector<dvec3> corners = corner_points(parse_bytes(file.text()));
     ASSERT_EQ(corners.size(), 6U);
     for (std::size_t i = 0; i < 6; i += 3) {
       EXPECT_EQ(glm::cross(corners[i + 1] - corners[i], corners[i + 2] - corners[i]),
@@ -186,29 +185,29 @@ TEST(GltfFile, TurnsStripsAndFansTheSameWay) {
 }
 
 TEST(GltfFile, LeavesOutPointsAndLines) {
-  File file = square(6);
+  GltfText file = square_file(6);
   for (const uint32_t mode : {0U, 1U, 3U}) {
     file.add_mesh({{"attributes", {{"POSITION", 0}}}, {"mode", mode}});
   }
-  EXPECT_EQ(parse(file.text()).notes,
+  EXPECT_EQ(parse_bytes(file.text()).notes,
             (std::vector<std::string>{"1 point primitive left out", "2 line primitives left out"}));
-  EXPECT_EQ(complaint(square(1).text()),
+  EXPECT_EQ(refusal(square_file(1).text()),
             "model.gltf: has no triangles; 1 line primitive left out.");
 }
 
 TEST(GltfFile, AppliesTransformationsOfNodes) {
-  File file;
-  const std::size_t positions = file.add_vectors(kSquare);
+  GltfText file;
+  const std::size_t positions = file.add_vectors(kSquareCorners);
   const std::size_t normals = file.add_vectors({0, 0, 1, 0, 0, 1, 0, 0, 1, 1, 0, 1});
   file.add_mesh({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}, {"mode", 6}});
   // The parent mirrors x, the child moves along it and is half as high along z.
   file.add_node({{"children", {1}}, {"scale", {-1, 1, 1}}});
   file.add_node({{"mesh", 0}, {"translation", {2, 0, 0}}, {"scale", {1, 1, 0.5}}});
   file.root()["scenes"] = {{{"nodes", {0}}}};
-  const PolygonModel model = parse(file.text());
+  const PolygonModel model = parse_bytes(file.text());
   EXPECT_EQ(model.positions[1], dvec3(-3, 0, 0));
   // Mirrored triangles stay on the side of their normals.
-  const std::vector<dvec3> corners = corners_of(model);
+  const std::vector<dvec3> corners = corner_points(model);
   EXPECT_GT(glm::cross(corners[1] - corners[0], corners[2] - corners[0]).z, 0.0);
   EXPECT_GT(model.normals[0].z, 0.0);
   // The slanted normal turns against the stretching: (1, 0, 1) to (-1, 0, 2).
@@ -219,14 +218,14 @@ TEST(GltfFile, AppliesTransformationsOfNodes) {
   for (const json& node :
        {json{{"mesh", 0}, {"rotation", {0, 0, h, h}}},
         json{{"mesh", 0}, {"matrix", {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}}) {
-    File turned = file;
+    GltfText turned = file;
     turned.root()["nodes"] = {node};
-    EXPECT_LT(glm::distance(parse(turned.text()).positions[1], dvec3(0, 1, 0)), 1e-15);
+    EXPECT_LT(glm::distance(parse_bytes(turned.text()).positions[1], dvec3(0, 1, 0)), 1e-15);
   }
 }
 
 TEST(GltfFile, ReadsQuantisedAccessors) {
-  File file;
+  GltfText file;
   const std::size_t positions =
       file.add(std::vector<uint16_t>{0, 0, 0, 65535, 0, 0, 65535, 65535, 0, 0, 65535, 0}, 5123,
                "VEC3", 3, true);
@@ -234,29 +233,29 @@ TEST(GltfFile, ReadsQuantisedAccessors) {
       std::vector<int8_t>{0, 0, 127, 0, 0, 127, 0, -128, 0, 0, 127, 127}, 5120, "VEC3", 3, true);
   file.add_mesh({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}, {"mode", 6}});
   file.add_node({{"mesh", 0}, {"scale", {3, 3, 3}}});
-  const PolygonModel model = parse(file.text());
+  const PolygonModel model = parse_bytes(file.text());
   EXPECT_EQ(model.positions[2], dvec3(3, 3, 0));
   EXPECT_EQ(model.normals[2].y, -9.0);  // cofactors of a scale by 3
 }
 
 TEST(GltfFile, ReplacesElementsOfSparseAccessors) {
-  File file = square(6);
-  const std::size_t places = file.add_view(bytes_of(std::vector<uint16_t>{2}));
-  const std::size_t values = file.add_view(bytes_of(std::vector<float>{5, 6, 7}));
+  GltfText file = square_file(6);
+  const std::size_t places = file.add_view(as_bytes(std::vector<uint16_t>{2}));
+  const std::size_t values = file.add_view(as_bytes(std::vector<float>{5, 6, 7}));
   file.root()["accessors"][0]["sparse"] = {
       {"count", 1},
       {"indices", {{"bufferView", places}, {"componentType", 5123}}},
       {"values", {{"bufferView", values}}}};
-  EXPECT_EQ(parse(file.text()).positions[2], dvec3(5, 6, 7));
-  EXPECT_EQ(parse(file.text()).positions[1], dvec3(1, 0, 0));
+  EXPECT_EQ(parse_bytes(file.text()).positions[2], dvec3(5, 6, 7));
+  EXPECT_EQ(parse_bytes(file.text()).positions[1], dvec3(1, 0, 0));
 }
 
 TEST(GltfFile, TakesMorphTargetsAndSkinsAtRest) {
-  File file = square(6);
+  GltfText file = square_file(6);
   const std::size_t up = file.add_vectors({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
   file.root()["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", up}}};
   file.root()["meshes"][0]["weights"] = {0.25};
-  EXPECT_EQ(parse(file.text()).positions[1], dvec3(1, 0, 0.25));
+  EXPECT_EQ(parse_bytes(file.text()).positions[1], dvec3(1, 0, 0.25));
   // The node's weights go before; two joints, one of which has moved.
   const std::size_t joints = file.add(
       std::vector<uint8_t>{0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0}, 5121, "VEC4", 4);
@@ -269,7 +268,7 @@ TEST(GltfFile, TakesMorphTargetsAndSkinsAtRest) {
   file.add_node({{"mesh", 0}, {"skin", 0}, {"weights", {0.5}}, {"translation", {100, 0, 0}}});
   file.add_node(json::object());
   file.add_node({{"translation", {0, 0, 4}}});
-  const PolygonModel model = parse(file.text());
+  const PolygonModel model = parse_bytes(file.text());
   EXPECT_EQ(model.positions[0], dvec3(0, 0, 0.5));
   EXPECT_EQ(model.positions[1], dvec3(1, 0, 4.5));
   EXPECT_EQ(model.positions[2], dvec3(1, 1, 2.5));
@@ -277,17 +276,18 @@ TEST(GltfFile, TakesMorphTargetsAndSkinsAtRest) {
 
 TEST(GltfFile, UnpacksMeshopt) {
   std::vector<unsigned char> packed(meshopt_encodeVertexBufferBound(4, 12));
-  packed.resize(meshopt_encodeVertexBuffer(packed.data(), packed.size(), kSquare.data(), 4, 12));
+  packed.resize(
+      meshopt_encodeVertexBuffer(packed.data(), packed.size(), kSquareCorners.data(), 4, 12));
   const std::vector<uint16_t> triangles{0, 1, 2, 0, 2, 3};
   std::vector<unsigned char> packed_indices(meshopt_encodeIndexBufferBound(6, 4));
   const std::vector<uint32_t> wide(triangles.begin(), triangles.end());
   packed_indices.resize(
       meshopt_encodeIndexBuffer(packed_indices.data(), packed_indices.size(), wide.data(), 6));
-  File file;
+  GltfText file;
   // The views' own buffer is one that need not be there.
   const auto add_packed = [&](const std::vector<unsigned char>& bytes, std::size_t count,
                               std::size_t stride, const char* mode) {
-    const std::size_t view = file.add_view(bytes_of(bytes));
+    const std::size_t view = file.add_view(as_bytes(bytes));
     json& object = file.root()["bufferViews"][view];
     const json place{
         {"buffer", 0}, {"byteOffset", object["byteOffset"]}, {"byteLength", bytes.size()}};
@@ -307,12 +307,12 @@ TEST(GltfFile, UnpacksMeshopt) {
                                {"type", "SCALAR"},
                                {"count", 6}}};
   file.add_mesh({{"attributes", {{"POSITION", 0}}}, {"indices", 1}});
-  const PolygonModel model = parse(file.text());
+  const PolygonModel model = parse_bytes(file.text());
   ASSERT_EQ(model.positions.size(), 4U);
   EXPECT_EQ(model.positions[2], dvec3(1, 1, 0));
   EXPECT_EQ(model.sizes.size(), 2U);
   file.root()["bufferViews"][0]["extensions"]["EXT_meshopt_compression"]["count"] = 5000;
-  EXPECT_EQ(complaint(file.text()), "model.gltf: buffer view 0 cannot be unpacked.");
+  EXPECT_EQ(refusal(file.text()), "model.gltf: buffer view 0 cannot be unpacked.");
 }
 
 TEST(GltfFile, UnpacksDraco) {
@@ -323,7 +323,7 @@ TEST(GltfFile, UnpacksDraco) {
   const int id = mesh.AddAttribute(attribute, true, 4);
   for (uint32_t i = 0; i < 4; ++i) {
     mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i),
-                                          &kSquare[std::size_t{3} * i]);
+                                          &kSquareCorners[std::size_t{3} * i]);
   }
   mesh.AddFace({draco::PointIndex(0), draco::PointIndex(1), draco::PointIndex(2)});
   mesh.AddFace({draco::PointIndex(0), draco::PointIndex(2), draco::PointIndex(3)});
@@ -331,7 +331,7 @@ TEST(GltfFile, UnpacksDraco) {
   draco::Encoder encoder;
   encoder.SetEncodingMethod(draco::MESH_SEQUENTIAL_ENCODING);
   ASSERT_TRUE(encoder.EncodeMeshToBuffer(mesh, &packed).ok());
-  File file;
+  GltfText file;
   const std::size_t view = file.add_view(std::string(packed.data(), packed.size()));
   file.root()["accessors"] = {{{"componentType", 5126}, {"type", "VEC3"}, {"count", 4}},
                               {{"componentType", 5125}, {"type", "SCALAR"}, {"count", 6}}};
@@ -340,17 +340,17 @@ TEST(GltfFile, UnpacksDraco) {
                  {"extensions",
                   {{"KHR_draco_mesh_compression",
                     {{"bufferView", view}, {"attributes", {{"POSITION", 0}}}}}}}});
-  const PolygonModel model = parse(file.text());
+  const PolygonModel model = parse_bytes(file.text());
   ASSERT_EQ(model.sizes.size(), 2U);
-  EXPECT_EQ(corners_of(model)[2], dvec3(1, 1, 0));
+  EXPECT_EQ(corner_points(model)[2], dvec3(1, 1, 0));
   // Half of it is none.
   file.root()["bufferViews"][0]["byteLength"] = packed.size() / 2;
-  EXPECT_NE(complaint(file.text()).find("a mesh cannot be unpacked"), std::string::npos);
+  EXPECT_NE(refusal(file.text()).find("a mesh cannot be unpacked"), std::string::npos);
 }
 
 TEST(GltfFile, ReadsBuffersBesideItAndNoOthers) {
   const test::TemporaryFolder folder;
-  const File file = square(6);
+  const GltfText file = square_file(6);
   std::filesystem::create_directory(folder / "sub");
   std::filesystem::create_directory(folder / "sub/data");
   for (const char* place : {"outside.bin", "sub/a b.bin", "sub/data/c.bin"}) {
@@ -378,10 +378,10 @@ TEST(GltfFile, ReadsBuffersBesideItAndNoOthers) {
 
 TEST(GltfFile, SaysWhatIsWrong) {
   const auto with = [](const auto& change) {
-    File file = square(6);
+    GltfText file = square_file(6);
     file.add_node({{"mesh", 0}});
     change(file.root());
-    return complaint(file.text());
+    return refusal(file.text());
   };
   EXPECT_EQ(with([](json& root) { root.erase("asset"); }),
             "model.gltf: is no glTF: it says nothing of an asset.");
@@ -406,14 +406,14 @@ TEST(GltfFile, SaysWhatIsWrong) {
             "model.gltf: buffer 0 ends before what is named of it.");
   EXPECT_EQ(with([](json& root) { root["accessors"][0]["count"] = -1; }),
             "model.gltf: is not the JSON of a glTF: a whole number was expected, not -1.");
-  EXPECT_NE(complaint("{\"asset\": ").find("is not the JSON of a glTF: "), std::string::npos);
-  File file = square();
+  EXPECT_NE(refusal("{\"asset\": ").find("is not the JSON of a glTF: "), std::string::npos);
+  GltfText file = square_file();
   const std::size_t indices = file.add(std::vector<uint16_t>{0, 1, 9}, 5123, "SCALAR", 1);
   file.root()["meshes"][0]["primitives"][0]["indices"] = indices;
-  EXPECT_EQ(complaint(file.text()), "model.gltf: a mesh of 4 vertices names vertex 9.");
-  const std::string binary = square(6).binary();
-  EXPECT_EQ(complaint(binary.substr(0, 16)), "model.gltf: is cut off.");
-  EXPECT_EQ(complaint(binary.substr(0, binary.size() - 8)), "model.gltf: is cut off.");
+  EXPECT_EQ(refusal(file.text()), "model.gltf: a mesh of 4 vertices names vertex 9.");
+  const std::string binary = square_file(6).binary();
+  EXPECT_EQ(refusal(binary.substr(0, 16)), "model.gltf: is cut off.");
+  EXPECT_EQ(refusal(binary.substr(0, binary.size() - 8)), "model.gltf: is cut off.");
 }
 
 }  // namespace

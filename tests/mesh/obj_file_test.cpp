@@ -172,6 +172,21 @@ TEST(ObjFile, ReadsSmoothingGroups) {
             (std::vector<uint32_t>{1, 0, 7, 7, 0}));
 }
 
+TEST(ObjFile, KeepsTheNamesOfObjectsOrElseGroups) {
+  const std::string square(kSquare);
+  const auto names_of = [](const PolygonModel& model) {
+    std::string names;
+    for (const PolygonGroup& group : model.groups) {
+      names += std::to_string(group.first) + group.name + ";";
+    }
+    return names;
+  };
+  EXPECT_EQ(names_of(parse(square + "f 1 2 3\n")), "");
+  EXPECT_EQ(names_of(parse(square + "g a\ng left side \nf 1 2 3\nf 1 2 3\ng\nf 1 2 3\ng c\n")),
+            "0left side;2;");
+  EXPECT_EQ(names_of(parse(square + "g a\nf 1 2 3\no b\nf 1 2 3\n")), "0;1b;");
+}
+
 TEST(ObjFile, ReadsUtf16) {
   const std::string text = "# \xE4\n" + std::string(kSquare) + "f 1 2 3 4";
   for (const bool high_first : {false, true}) {
