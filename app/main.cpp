@@ -144,6 +144,21 @@ void add_hardcases(CLI::App& app, HardcasesOptions& options, std::string& backen
   add_device(*hardcases, options.device);
 }
 
+void add_info(CLI::App& app, InfoOptions& options, std::optional<std::string>& surface) {
+  CLI::App* command = app.add_subcommand(
+      "info",
+      "Say what a model is like, what its curved surfaces will be like, and what to look at");
+  command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  command->add_option("MODEL", options.model, "OBJ, glTF, PLY, STL or FBX file")->required();
+  add_mesh_options(*command, options.mesh);
+  command->add_option("--surface", surface, "Of which: phong or sphere, default phong")
+      ->check(one_of({"phong", "sphere"}))
+      ->type_name("NAME");
+  command->add_option("--json", options.json, "Write it as JSON")
+      ->check(not_empty())
+      ->type_name("FILE");
+}
+
 void add_devices(CLI::App& app, DevicesOptions& options) {
   CLI::App* command = app.add_subcommand(
       "devices", "List the Vulkan devices, and what those that cannot be used lack");
@@ -190,6 +205,9 @@ int run(int argc, char** argv) {
   CompareOptions compare_options;
   std::vector<std::string> thresholds;
   add_compare(app, compare_options, thresholds);
+  InfoOptions info_options;
+  std::optional<std::string> info_surface;
+  add_info(app, info_options, info_surface);
   DevicesOptions devices_options;
   add_devices(app, devices_options);
   app.footer(
@@ -204,6 +222,10 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
     return fail(exit_usage, std::string(error.what()) + " (see trisect --help)");
+  }
+  if (app.got_subcommand("info")) {
+    if (info_surface) info_options.surface = surface_of(*info_surface);
+    return info(info_options);
   }
   if (app.got_subcommand("devices")) return list_devices(devices_options);
   if (app.got_subcommand("accuracy")) return run_accuracy(accuracy_options, accuracy_text);

@@ -1,5 +1,6 @@
 #include <optional>
 
+#include "app/base/stopwatch.h"
 #include "app/bench/contender.h"
 #include "app/opengl/rasterizer.h"
 

@@ -24,6 +24,9 @@ Tolerance tolerance_between(Backend a, Backend b, GlPath gl_path);
 // Compares two image files. Returns exit_different if they are farther apart than the tolerance.
 int compare_images(const CompareOptions& options);
 
+// Prints what a model is like, what its curved surfaces will be like, and what to look at.
+int info(const InfoOptions& options);
+
 // Lists the Vulkan devices, or the one asked for, and on request what their arithmetic does.
 // Returns exit_no_device if none can be used.
 int list_devices(const DevicesOptions& options);

@@ -59,6 +59,13 @@ struct AccuracyOptions {
   std::string json;
 };
 
+struct InfoOptions {
+  std::string model;
+  MeshOptions mesh;
+  uint surface = SURFACE_PHONG;
+  std::string json;
+};
+
 struct DevicesOptions {
   std::string device;  // empty: all of them
   bool floats = false;

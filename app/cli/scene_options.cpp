@@ -98,19 +98,23 @@ void add_view(CLI::App& command, RenderOptions& options, SceneText& text) {
                   "Its vertical field of view in degrees, 1 to 170, default 45")
       ->check(number_from_to(1.0, 170.0))
       ->type_name("DEG");
+  add_mesh_options(command, options.mesh);
+}
+
+void add_mesh_options(CLI::App& command, MeshOptions& mesh) {
   command
-      .add_option("--crease", options.mesh.crease_degrees,
+      .add_option("--crease", mesh.crease_degrees,
                   "Rebuild the normals, sharp where faces meet at more than this angle, 0 to 180")
       ->check(number_from_to(0.0, 180.0))
       ->type_name("DEG");
   command
       .add_option(
-          "--weld", options.mesh.weld,
+          "--weld", mesh.weld,
           "Take vertices for one that are no farther apart than this, in the model's units, "
           "default 0")
       ->check(number_from_to(0.0, 1e9))
       ->type_name("EPS");
-  command.add_flag("--repair", options.mesh.repair,
+  command.add_flag("--repair", mesh.repair,
                    "Turn triangles around so that neighbours have the same winding, outward where "
                    "the surface is closed");
 }

@@ -34,6 +34,9 @@ void add_scene(CLI::App& command, RenderOptions& options, SceneText& text);
 // options that the command gets later.
 void add_view(CLI::App& command, RenderOptions& options, SceneText& text);
 
+// Adds --crease, --weld and --repair.
+void add_mesh_options(CLI::App& command, MeshOptions& mesh);
+
 // Adds --spp.
 void add_spp(CLI::App& command, uint32_t& spp);
 

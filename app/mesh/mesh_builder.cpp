@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/base/error.h"
+#include "app/mesh/edges.h"
 #include "app/mesh/polygon.h"
 
 namespace trisect {
@@ -268,39 +269,10 @@ class MadeNormals {
   std::vector<dvec3> normals_;
 };
 
-// A triangle's side. An edge is a pair of welded positions.
-struct Side {
-  std::pair<uint32_t, uint32_t> edge;  // lower position first
-  uint32_t triangle;
-  uint32_t corner;  // at which it begins
-  bool forward;     // from the lower position to the other
-};
-
-// All sides, those of the same edge side by side.
-std::vector<Side> sides_of(const std::vector<Corners>& triangles) {
-  std::vector<Side> sides;
-  sides.reserve(triangles.size() * 3);
-  for (uint32_t t = 0; t < triangles.size(); ++t) {
-    for (uint32_t i = 0; i < 3; ++i) {
-      const uint32_t from = triangles[t].welded[i];
-      const uint32_t to = triangles[t].welded[(i + 1) % 3];
-      sides.push_back({std::minmax(from, to), t, i, from < to});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::pair(a.edge, 3 * a.triangle + a.corner) <
-           std::pair(b.edge, 3 * b.triangle + b.corner);
+std::vector<Side> welded_sides(const std::vector<Corners>& triangles) {
+  return sides_of(triangles.size(), [&](uint32_t t) -> const std::array<uint32_t, 3>& {
+    return triangles[t].welded;
   });
-  return sides;
-}
-
-// Calls with_edge(sides) for the sides of each edge.
-template <typename WithEdge>
-void for_edges(const std::vector<Side>& sides, WithEdge&& with_edge) {
-  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
-    while (end < sides.size() && sides[end].edge == sides[begin].edge) ++end;
-    with_edge(std::span(sides).subspan(begin, end - begin));
-  }
 }
 
 // Counts the edges of the report.
@@ -312,7 +284,7 @@ void count_edges(const std::vector<Corners>& triangles, const Mesh& mesh, MeshRe
     };
     return glm::distance(normal_at(a, end_of_a), normal_at(b, end_of_b)) > 1e-6;
   };
-  for_edges(sides_of(triangles), [&](std::span<const Side> sides) {
+  for_edges(welded_sides(triangles), [&](std::span<const Side> sides) {
     if (sides.size() == 1) ++report.open_edges;
     if (sides.size() > 2) ++report.non_manifold_edges;
     if (sides.size() != 2) return;
@@ -338,7 +310,7 @@ std::size_t repair_winding(std::vector<Corners>& triangles, const std::vector<dv
   };
   std::vector<std::vector<Neighbour>> neighbours(triangles.size());
   std::vector<bool> is_open(triangles.size(), false);
-  for_edges(sides_of(triangles), [&](std::span<const Side> sides) {
+  for_edges(welded_sides(triangles), [&](std::span<const Side> sides) {
     if (sides.size() == 2) {
       const bool turned = sides[0].forward == sides[1].forward;
       neighbours[sides[0].triangle].push_back({sides[1].triangle, turned});

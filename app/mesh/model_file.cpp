@@ -66,10 +66,28 @@ ModelFormat format_of(std::string_view bytes, const std::filesystem::path& path)
   return ModelFormat::obj;
 }
 
-PolygonModel read_model(const std::filesystem::path& path) {
+const char* format_name(ModelFormat format) {
+  switch (format) {
+    case ModelFormat::gltf:
+      return "glTF";
+    case ModelFormat::ply:
+      return "PLY";
+    case ModelFormat::stl:
+      return "STL";
+    case ModelFormat::fbx:
+      return "FBX";
+    case ModelFormat::obj:
+      break;
+  }
+  return "OBJ";
+}
+
+PolygonModel read_model(const std::filesystem::path& path, ModelFormat* format) {
   const std::string bytes = read_bytes(path);
   if (bytes.empty()) throw InputError(path.string() + ": is empty.");
-  switch (format_of(bytes, path)) {
+  const ModelFormat found = format_of(bytes, path);
+  if (format != nullptr) *format = found;
+  switch (found) {
     case ModelFormat::gltf:
       return parse_gltf(bytes, path);
     case ModelFormat::ply:

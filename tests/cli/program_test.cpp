@@ -158,6 +158,29 @@ TEST_F(Program, AveragesSeveralRaysAPixel) {
                           [](const vec4& color) { return color.w > 0.0F && color.w < 1.0F; }));
 }
 
+TEST_F(Program, SaysWhatAModelIsLike) {
+  expect_complaint(run_trisect({"info", folder_ / "none.glb"}), 3, "none.glb: cannot be opened");
+  expect_complaint(run_trisect({"info"}), 2, "MODEL");
+  const std::string file = folder_ / "info.json";
+  std::ofstream(folder_ / "two.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\no one\nf 1 2 3\no "
+                                        "two\nf 2 3 4\nl 1 4\n";
+  const test::ProgramRun run = run_trisect({"info", folder_ / "two.obj", "--json", file});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("1 line element left out"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("--repair turns triangles around"), std::string::npos) << run.out;
+  std::ifstream stream(file);
+  const auto json = nlohmann::json::parse(stream);
+  EXPECT_EQ(json["format"], "OBJ");
+  EXPECT_EQ(json["meshes"][1]["name"], "two");
+  EXPECT_EQ(json["edges"]["opposite_winding"], 1);
+  EXPECT_EQ(json["surface"]["surface"], "phong");
+  EXPECT_EQ(json["advice"].size(), 3U) << json["advice"];
+  const test::ProgramRun repaired =
+      run_trisect({"info", folder_ / "two.obj", "--repair", "--surface", "sphere"});
+  EXPECT_NE(repaired.out.find("1 triangles turned around"), std::string::npos) << repaired.out;
+  EXPECT_NE(repaired.out.find("sphere "), std::string::npos) << repaired.out;
+}
+
 TEST_F(Program, ComplainsAboutDevicesWithCode4) {
   expect_complaint(render({"--device", "99"}), 4, "no Vulkan device is called '99'");
   // The refusal lists the devices by number and name.

@@ -1,0 +1,215 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "app/base/atomic_file.h"
+#include "app/base/error.h"
+#include "app/cli/commands.h"
+#include "app/cli/interrupt.h"
+#include "app/cli/json_text.h"
+#include "app/cli/model_facts.h"
+#include "app/cli/progress_line.h"
+#include "app/mesh/mesh_builder.h"
+#include "app/mesh/model_file.h"
+
+namespace trisect {
+namespace {
+
+using nlohmann::ordered_json;
+
+// How many meshes are printed; JSON has all.
+constexpr std::size_t kPrintedMeshes = 12;
+
+struct Model {
+  ModelFormat format = ModelFormat::obj;
+  std::size_t file_bytes = 0;
+  PolygonModel polygons;
+  BuiltMesh built;
+  ModelFacts facts;
+};
+
+Model examine(const InfoOptions& options) {
+  const BusyLine line("examining " + options.model);
+  Model model;
+  model.polygons = read_model(options.model, &model.format);
+  std::error_code unused;
+  model.file_bytes = std::filesystem::file_size(options.model, unused);
+  stop_if_interrupted();
+  model.built = build_mesh(model.polygons, options.model, options.mesh);
+  model.facts = facts_of(model.built.mesh, options.surface);
+  return model;
+}
+
+const char* source_name(NormalSource source) {
+  switch (source) {
+    case NormalSource::welded:
+      return "made";
+    case NormalSource::mixed:
+      return "mixed";
+    default:
+      return "file";
+  }
+}
+
+// A name of a file as one line for a terminal.
+std::string printable(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
+  return text;
+}
+
+// Polygons of each mesh of the file, by its name.
+std::vector<std::pair<std::string, std::size_t>> meshes_of(const PolygonModel& model) {
+  std::vector<std::pair<std::string, std::size_t>> meshes;
+  const std::vector<PolygonGroup>& groups = model.groups;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const std::size_t end = i + 1 < groups.size() ? groups[i + 1].first : model.sizes.size();
+    meshes.emplace_back(groups[i].name, end - groups[i].first);
+  }
+  return meshes;
+}
+
+// What to do about what was found.
+std::vector<std::string> advice_of(const Model& model) {
+  const MeshReport& report = model.built.report;
+  const ModelFacts& facts = model.facts;
+  std::vector<std::string> advice;
+  const auto add = [&](std::size_t count, const char* text) {
+    if (count > 0) advice.push_back(fmt::format("{} {}", count, text));
+  };
+  add(report.open_edges,
+      "open edges: borders, or vertices that do not quite meet; --weld EPS takes those for one");
+  add(report.flipped_edges,
+      "edges between triangles of opposite winding; --repair turns triangles around");
+  add(report.non_manifold_edges,
+      "edges of three triangles or more: the normals that are made are not smooth across them");
+  add(report.hard_edges,
+      "hard edges: curved triangles part there; --crease 180 makes one normal for each vertex");
+  add(report.normals_behind,
+      "corner normals point behind their face: wrong normals (--crease 180 makes others) or "
+      "winding");
+  add(facts.leaning > report.normals_behind ? facts.leaning : 0,
+      "corners lean by more than 60 degrees: surfaces bulge there; more triangles would help");
+  add(facts.surface.folding, "patches fold over: rays meet them several times");
+  add(facts.without_height_shell,
+      "triangles have no surface in the height shell; the normal shell has one for all");
+  return advice;
+}
+
+ordered_json json_of(const InfoOptions& options, const Model& model) {
+  const MeshReport& report = model.built.report;
+  const ModelFacts& facts = model.facts;
+  const auto triple = [](const glm::dvec3& v) { return ordered_json{v.x, v.y, v.z}; };
+  ordered_json json{{"program", "trisect"},
+                    {"version", TRISECT_VERSION},
+                    {"model", options.model},
+                    {"format", format_name(model.format)},
+                    {"file_bytes", model.file_bytes},
+                    {"meshes", ordered_json::array()},
+                    {"polygons", model.polygons.sizes.size()},
+                    {"triangles", report.triangles},
+                    {"vertices", report.vertices},
+                    {"degenerate_dropped", report.degenerate_dropped},
+                    {"notes", report.notes},
+                    {"bounds", {{"low", triple(facts.low)}, {"high", triple(facts.high)}}},
+                    {"radius", facts.radius},
+                    {"normals",
+                     {{"source", source_name(report.normals)},
+                      {"largest_lean", facts.largest_lean},
+                      {"lean_beyond_60", facts.leaning},
+                      {"behind", report.normals_behind}}},
+                    {"edges",
+                     {{"open", report.open_edges},
+                      {"hard", report.hard_edges},
+                      {"non_manifold", report.non_manifold_edges},
+                      {"opposite_winding", report.flipped_edges}}},
+                    {"turned", report.turned}};
+  for (const auto& [name, polygons] : meshes_of(model.polygons)) {
+    json["meshes"].push_back({{"name", name}, {"polygons", polygons}});
+  }
+  const SurfaceFacts& surface = facts.surface;
+  json["surface"] = {{"surface", surface_name(surface.choice.surface)},
+                     {"shell", shell_name(surface.choice.shell)},
+                     {"parts", surface.parts},
+                     {"device_bytes", surface.device_bytes},
+                     {"folding", surface.folding},
+                     {"largest_displacement", surface.largest_displacement}};
+  json["height_shell"] = {{"without_surface", facts.without_height_shell},
+                          {"largest_crack", facts.largest_crack}};
+  json["advice"] = advice_of(model);
+  return json;
+}
+
+void print(const InfoOptions& options, const Model& model) {
+  const MeshReport& report = model.built.report;
+  const ModelFacts& facts = model.facts;
+  const auto row = [](const char* what, const std::string& text) {
+    fmt::print("{:<13}{}\n", what, text);
+  };
+  const auto megabytes = [](std::size_t bytes) {
+    return fmt::format("{:.3g} MB", static_cast<double>(bytes) / 1e6);
+  };
+  row("file", fmt::format("{}, {}, {}", options.model, format_name(model.format),
+                          megabytes(model.file_bytes)));
+  const auto meshes = meshes_of(model.polygons);
+  for (std::size_t i = 0; i < std::min(meshes.size(), kPrintedMeshes); ++i) {
+    row(i == 0 ? "meshes" : "",
+        fmt::format("\"{}\", {} polygons", printable(meshes[i].first), meshes[i].second));
+  }
+  if (meshes.size() > kPrintedMeshes) {
+    row("", fmt::format("and {} more", meshes.size() - kPrintedMeshes));
+  }
+  row("polygons", fmt::format("{}: {} triangles, {} without area dropped, {} vertices",
+                              model.polygons.sizes.size(), report.triangles,
+                              report.degenerate_dropped, report.vertices));
+  for (const std::string& note : report.notes) row("", note);
+  if (report.turned > 0) row("", fmt::format("{} triangles turned around", report.turned));
+  row("bounds", fmt::format("{:.6g},{:.6g},{:.6g} to {:.6g},{:.6g},{:.6g}; radius {:.6g}",
+                            facts.low.x, facts.low.y, facts.low.z, facts.high.x, facts.high.y,
+                            facts.high.z, facts.radius));
+  const char* normals = report.normals == NormalSource::file ? "from the file"
+                        : report.normals == NormalSource::welded
+                            ? "made"
+                            : "from the file where it has them";
+  row("normals",
+      fmt::format("{}; they lean by up to {:.1f} degrees, {} by more than {:.0f}, {} "
+                  "point behind their face",
+                  normals, facts.largest_lean, facts.leaning, kSteepLean, report.normals_behind));
+  row("edges",
+      fmt::format("{} open, {} hard, {} non-manifold, {} of opposite winding", report.open_edges,
+                  report.hard_edges, report.non_manifold_edges, report.flipped_edges));
+  const SurfaceFacts& surface = facts.surface;
+  row(surface_name(surface.choice.surface),
+      fmt::format("{} parts, {}; displaced by up to {:.3g} of the radius; {} patches fold",
+                  surface.parts, megabytes(surface.device_bytes), surface.largest_displacement,
+                  surface.folding));
+  row("height shell",
+      fmt::format("phong parts along edges by up to {:.3g} of the radius; {} triangles have no "
+                  "surface",
+                  facts.largest_crack, facts.without_height_shell));
+  const std::vector<std::string> advice = advice_of(model);
+  for (std::size_t i = 0; i < advice.size(); ++i) row(i == 0 ? "look at" : "", advice[i]);
+}
+
+}  // namespace
+
+int info(const InfoOptions& options) {
+  std::optional<AtomicFile> file;
+  if (!options.json.empty()) file.emplace(options.json);
+  const Model model = examine(options);
+  print(options, model);
+  if (file) {
+    file->write(json_text(json_of(options, model)));
+    file->commit();
+  }
+  return exit_done;
+}
+
+}  // namespace trisect

@@ -1,0 +1,61 @@
+#include "app/cli/model_facts.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "app/mesh/mesh_builder.h"
+#include "tests/support/scenes.h"
+
+namespace trisect {
+namespace {
+
+using glm::dvec3;
+
+TEST(ModelFacts, OfASquareAreThoseOfThePlane) {
+  const std::vector<dvec3> positions{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
+  const std::vector<uint32_t> triangles{0, 1, 2, 0, 2, 3};
+  const ModelFacts facts = facts_of(build_mesh(positions, {}, triangles).mesh, SURFACE_PHONG);
+  EXPECT_EQ(facts.low, dvec3(0, 0, 0));
+  EXPECT_EQ(facts.high, dvec3(2, 2, 0));
+  EXPECT_EQ(facts.largest_lean, 0.0);
+  EXPECT_EQ(facts.leaning, 0U);
+  EXPECT_EQ(facts.surface.folding, 0U);
+  EXPECT_EQ(facts.surface.largest_displacement, 0.0);
+  EXPECT_LT(facts.largest_crack, 1e-15);  // roundings
+  EXPECT_EQ(facts.without_height_shell, 0U);
+}
+
+TEST(ModelFacts, OfASphereKnowItsBulge) {
+  // A corner's normal leans by as much as its face is turned away: on the icosahedron by half the
+  // angle between an edge's ends and a little more, some 37 degrees.
+  const ModelFacts facts = facts_of(test::load_asset("sphere-20"), SURFACE_SPHERE);
+  EXPECT_NEAR(facts.largest_lean, 37.4, 0.1);
+  EXPECT_EQ(facts.surface.choice.surface, SURFACE_SPHERE);
+  EXPECT_EQ(facts.surface.folding, 0U);
+  EXPECT_GT(facts.surface.parts, 20U);
+  // The sphere surface is the sphere: the middle of an edge lies at 0.851 of its radius, that of a
+  // face, which is none of the points, at 0.795.
+  EXPECT_GT(facts.surface.largest_displacement, 1.0 - 0.851);
+  EXPECT_LT(facts.surface.largest_displacement, 1.0 - 0.794);
+}
+
+TEST(ModelFacts, FindWhatFoldsAndWhatTheHeightShellParts) {
+  const ModelFacts facts = facts_of(test::load_asset("teapot"), SURFACE_PHONG);
+  EXPECT_GT(facts.surface.folding, 0U);
+  EXPECT_GT(facts.leaning, 0U);
+  EXPECT_GT(facts.largest_crack, 1e-3);
+}
+
+TEST(ModelFacts, CountTrianglesWithoutAHeightShell) {
+  // Every vertex normal lies in the plane of its face.
+  const std::vector<dvec3> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const std::vector<dvec3> normals(3, dvec3(1, 0, 0));
+  const std::vector<uint32_t> triangle{0, 1, 2};
+  const ModelFacts facts = facts_of(build_mesh(positions, normals, triangle).mesh, SURFACE_PHONG);
+  EXPECT_EQ(facts.without_height_shell, 1U);
+  EXPECT_NEAR(facts.largest_lean, 90.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace trisect
