@@ -54,7 +54,11 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
 VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, uint32_t width,
                            uint32_t height, const KernelChoice& choice,
                            std::shared_ptr<const TracerKernels> kernels)
-    : VulkanTracer(device, scene, width, height, choice, kNoLimit, nullptr, std::move(kernels)) {}
+    : VulkanTracer(device, scene, width, height, choice, kNoLimit, nullptr, std::move(kernels)) {
+  if (kernels_->plan() != plan_kernels(device, scene, choice, buffer_limit_)) {
+    throw std::logic_error("the kernels are not for this scene and choice");
+  }
+}
 
 VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, uint32_t width,
                            uint32_t height, const KernelChoice& choice, std::size_t buffer_limit,
@@ -77,9 +81,6 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
       image_(device, width, band_rows_, writes_aovs_, buffer_limit_),
       unused_(device, sizeof(vec4), gpu::Memory::device, "unused"),
       descriptors_(bind()) {
-  if (kernels_->plan() != plan_kernels(device, scene, choice, buffer_limit_)) {
-    throw std::logic_error("the kernels are not for this scene and choice");
-  }
   const Stopwatch watch;
   if (tiles_ && scene_.by_address()) scene_.set_projected(tiles_->projected());
   scene_.upload(staging_, commands_, scene);

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <assimp/Importer.hpp>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -53,23 +52,15 @@ class AssimpScene {
       }
     }
     close_groups(model_.sizes.size(), model_.groups);
-    note(points_, "point");
-    note(lines_, "line");
+    note_left_out(points_, "point", model_);
+    note_left_out(lines_, "line", model_);
     if (model_.sizes.empty()) {
-      throw InputError(fmt::format("{}: the file has no faces{}{}.", name_,
-                                   model_.notes.empty() ? "" : "; ",
-                                   fmt::join(model_.notes, ", ")));
+      throw InputError(name_ + ": the file has no faces" + notes_after_semicolon(model_) + ".");
     }
     return std::move(model_);
   }
 
  private:
-  void note(std::size_t count, const char* what) {
-    if (count > 0) {
-      model_.notes.push_back(fmt::format("{} {}{} left out", count, what, count == 1 ? "" : "s"));
-    }
-  }
-
   void add(const aiMesh& mesh, const dmat4& matrix) {
     const std::size_t first = model_.positions.size();
     const std::size_t first_normal = model_.normals.size();
@@ -77,22 +68,15 @@ class AssimpScene {
       throw InputError(name_ + ": has too many vertices.");
     }
     const bool has_normals = takes_normals_ && mesh.HasNormals();
-    const dmat3 m(matrix);
-    const bool mirrored = glm::determinant(m) < 0.0;
-    // The inverse transposed, times the determinant's size.
-    const dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-    const dmat3 turn = mirrored ? -cofactors : cofactors;
+    const bool mirrored = glm::determinant(dmat3(matrix)) < 0.0;
+    const dmat3 turn = matrix_for_normals(dmat3(matrix));
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
       const dvec3 position(matrix * glm::dvec4(vector_from(mesh.mVertices[i]), 1.0));
-      if (!std::isfinite(position.x + position.y + position.z)) {
+      dvec3 normal(0.0);
+      if (has_normals) normal = turn * vector_from(mesh.mNormals[i]);
+      if (!add_vertex(position, has_normals ? &normal : nullptr, model_)) {
         throw InputError(fmt::format("{}: vertex {} is not three finite numbers.", name_, i));
       }
-      model_.positions.push_back(position);
-      if (!has_normals) continue;
-      const dvec3 normal = turn * vector_from(mesh.mNormals[i]);
-      // One that is none is made.
-      const bool finite = std::isfinite(normal.x + normal.y + normal.z);
-      model_.normals.push_back(finite ? normal : dvec3(0.0));
     }
     add_group(mesh.mName.C_Str(), model_.sizes.size(), model_.groups);
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {

@@ -72,7 +72,8 @@ std::string read_bytes(const std::filesystem::path& path) {
   }
   std::string bytes(std::istreambuf_iterator<char>(file), {});
   if (file.bad()) throw InputError(path.string() + ": cannot be read.");
-  return bytes.starts_with("\x1f\x8b") ? decompressed(bytes, path.string()) : bytes;
+  if (bytes.starts_with("\x1f\x8b")) return decompressed(bytes, path.string());
+  return bytes;
 }
 
 }  // namespace trisect

@@ -211,18 +211,16 @@ Table Data::table(std::size_t index) {
   return table;
 }
 
-const std::string& Data::buffer(std::size_t index) {
+std::string_view Data::buffer(std::size_t index) {
   const auto known = buffers_.find(index);
   if (known != buffers_.end()) return known->second;
   const json& buffer = element("buffers", index);
-  std::string bytes;
   if (buffer.contains("uri")) {
-    bytes = read_uri(buffer.at("uri").get<std::string>(), index);
-  } else {
-    if (index != 0 || binary_.empty()) fail(fmt::format("buffer {} has no bytes", index));
-    bytes = binary_;
+    std::string bytes = read_uri(buffer.at("uri").get<std::string>(), index);
+    return buffers_.emplace(index, std::move(bytes)).first->second;
   }
-  return buffers_.emplace(index, std::move(bytes)).first->second;
+  if (index != 0 || binary_.empty()) fail(fmt::format("buffer {} has no bytes", index));
+  return binary_;
 }
 
 std::string Data::read_uri(const std::string& uri, std::size_t index) const {

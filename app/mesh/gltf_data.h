@@ -54,7 +54,7 @@ class Data {
   Table table(std::size_t index);
 
  private:
-  const std::string& buffer(std::size_t index);
+  std::string_view buffer(std::size_t index);
   std::string read_uri(const std::string& uri, std::size_t index) const;
   std::string_view part(std::size_t index, std::size_t offset, std::size_t size);
   std::string_view unpacked(std::size_t index, const nlohmann::json& packed);
@@ -73,8 +73,8 @@ class Data {
 
   std::filesystem::path path_;
   nlohmann::json root_;
-  std::string_view binary_;  // the bytes in a binary file
-  std::map<std::size_t, std::string> buffers_;
+  std::string_view binary_;                     // the bytes in a binary file
+  std::map<std::size_t, std::string> buffers_;  // those with a URI
   std::map<std::size_t, std::string> unpacked_;
 };
 

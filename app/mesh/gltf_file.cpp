@@ -152,13 +152,6 @@ dmat4 local_matrix(const json& node) {
   return matrix;
 }
 
-// How normals change: the inverse transposed, times the determinant's size, which is there for flat
-// transformations too.
-dmat3 for_normals(const dmat3& m) {
-  const dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-  return glm::determinant(m) < 0.0 ? -cofactors : cofactors;
-}
-
 // Puts the meshes of a scene together.
 class GltfScene {
  public:
@@ -169,7 +162,7 @@ class GltfScene {
     const std::size_t nodes = root.contains("nodes") ? root.at("nodes").size() : 0;
     placed_.resize(nodes);
     for (const std::size_t node : shown_roots(nodes)) place(node, dmat4(1.0));
-    // A skin's joints may lie outside the scene.
+    // Now that all are placed: a skin's joints may come after its mesh.
     for (std::size_t node = 0; node < nodes; ++node) {
       if (placed_[node]) add_node(node);
     }
@@ -177,24 +170,14 @@ class GltfScene {
       for (const json& mesh : root.at("meshes")) add_mesh(mesh, json::object(), dmat4(1.0));
     }
     close_groups(model_.sizes.size(), model_.groups);
-    note(points_, "point primitive");
-    note(lines_, "line primitive");
-    note(without_positions_, "primitive without positions");
-    if (model_.sizes.empty()) {
-      data_.fail(
-          "has no triangles" +
-          (model_.notes.empty() ? "" : "; " + fmt::format("{}", fmt::join(model_.notes, ", "))));
-    }
+    note_left_out(points_, "point primitive", model_);
+    note_left_out(lines_, "line primitive", model_);
+    note_left_out(without_positions_, "primitive without positions", model_);
+    if (model_.sizes.empty()) data_.fail("has no triangles" + notes_after_semicolon(model_));
     return std::move(model_);
   }
 
  private:
-  void note(std::size_t count, const char* what) {
-    if (count > 0) {
-      model_.notes.push_back(fmt::format("{} {}{} left out", count, what, count == 1 ? "" : "s"));
-    }
-  }
-
   [[nodiscard]] std::vector<std::size_t> shown_roots(std::size_t nodes) const {
     const json& root = data_.root();
     std::vector<std::size_t> roots;
@@ -287,19 +270,17 @@ class GltfScene {
     if (first + count > 0xfffffffeU) data_.fail("has too many vertices");
     const std::vector<dmat4> bones = bones_of(primitive, node, count);
     bool mirrored = glm::determinant(dmat3(matrix)) < 0.0;
-    const dmat3 turn = for_normals(dmat3(matrix));
+    const dmat3 turn = matrix_for_normals(dmat3(matrix));
     for (std::size_t i = 0; i < count; ++i) {
       const dmat4& at = bones.empty() ? matrix : bones[i];
       const dvec3 position(at * glm::dvec4(positions->vector(i), 1.0));
-      if (!std::isfinite(position.x + position.y + position.z)) {
+      dvec3 normal(0.0);
+      if (normals) {
+        normal = (bones.empty() ? turn : matrix_for_normals(dmat3(at))) * normals->vector(i);
+      }
+      if (!add_vertex(position, normals ? &normal : nullptr, model_)) {
         data_.fail(fmt::format("vertex {} of a mesh is not three finite numbers", i));
       }
-      model_.positions.push_back(position);
-      if (!normals) continue;
-      const dvec3 normal = (bones.empty() ? turn : for_normals(dmat3(at))) * normals->vector(i);
-      // One that is none is made.
-      const bool finite = std::isfinite(normal.x + normal.y + normal.z);
-      model_.normals.push_back(finite ? normal : dvec3(0.0));
     }
     if (!bones.empty()) mirrored = glm::determinant(dmat3(bones[0])) < 0.0;
     const std::size_t first_normal = model_.normals.size() - (normals ? count : 0);

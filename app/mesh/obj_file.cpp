@@ -391,9 +391,7 @@ PolygonModel parse_obj(std::string_view file_text, const std::string& name) {
   close_groups(model.sizes.size(), model.groups);
   if (text.has_groups) model.smoothing_groups = std::move(text.smoothing_groups);
   if (model.sizes.empty()) {
-    throw InputError(fmt::format(
-        "{}: the file has no faces{}.", name,
-        model.notes.empty() ? "" : "; " + fmt::format("{}", fmt::join(model.notes, ", "))));
+    throw InputError(name + ": the file has no faces" + notes_after_semicolon(model) + ".");
   }
   return model;
 }

@@ -1,8 +1,33 @@
 #include "app/mesh/polygon_model.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <utility>
 
 namespace trisect {
+
+glm::dmat3 matrix_for_normals(const glm::dmat3& m) {
+  const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]),
+                             glm::cross(m[0], m[1]));
+  return glm::determinant(m) < 0.0 ? -cofactors : cofactors;
+}
+
+bool add_vertex(const glm::dvec3& position, const glm::dvec3* normal, PolygonModel& model) {
+  const auto is_finite = [](const glm::dvec3& v) { return std::isfinite(v.x + v.y + v.z); };
+  model.positions.push_back(position);
+  if (normal != nullptr) model.normals.push_back(is_finite(*normal) ? *normal : glm::dvec3(0.0));
+  return is_finite(position);
+}
+
+void note_left_out(std::size_t count, const char* what, PolygonModel& model) {
+  if (count == 0) return;
+  model.notes.push_back(fmt::format("{} {}{} left out", count, what, count == 1 ? "" : "s"));
+}
+
+std::string notes_after_semicolon(const PolygonModel& model) {
+  return model.notes.empty() ? "" : fmt::format("; {}", fmt::join(model.notes, ", "));
+}
 
 void add_group(std::string name, std::size_t first, std::vector<PolygonGroup>& groups) {
   close_groups(first, groups);

@@ -38,6 +38,20 @@ struct PolygonModel {
   std::vector<std::string> notes;
 };
 
+// How normals change where positions change by m: the inverse transposed, times the determinant's
+// size, which is there for flat transformations too.
+glm::dmat3 matrix_for_normals(const glm::dmat3& m);
+
+// Adds a position, and a normal unless it is null; one that is not finite becomes 0, for which one
+// is made. Returns whether the position is finite.
+bool add_vertex(const glm::dvec3& position, const glm::dvec3* normal, PolygonModel& model);
+
+// Adds the note that so many were left out, unless none were. what: one of them, "line".
+void note_left_out(std::size_t count, const char* what, PolygonModel& model);
+
+// "; 2 lines left out, 1 point left out", or nothing without notes.
+std::string notes_after_semicolon(const PolygonModel& model);
+
 // Begins a group at the polygon `first`; one that has no polygons yet gives way. A first group that
 // begins later leaves those before it to one without a name.
 void add_group(std::string name, std::size_t first, std::vector<PolygonGroup>& groups);
