@@ -9,5 +9,8 @@ endif()
 # app/opengl/shader_head.cpp gives the version, with the values of the constants. What other directives the preprocessor
 # leaves, such as #extension for Vulkan, are dropped.
 string(REGEX REPLACE "#[^\n]*\n" "" text "${text}")
+# NVIDIA's compiler takes no element of a buffer with readonly or restrict as the argument of a function whose parameter
+# has no such qualifier (error C1317); they only allow optimisations.
+string(REGEX REPLACE "((readonly|writeonly|restrict) )+buffer " "buffer " text "${text}")
 string(REGEX REPLACE "\n\n+" "\n" text "${text}")
 file(WRITE ${HEADER} "constexpr const char* ${NAME} = R\"glsl(${text})glsl\";\n")

@@ -87,7 +87,7 @@ std::vector<Measurement> Comparison::measure(const std::string& model, uint32_t 
   }
   for (uint32_t run = 0; run < runs; ++run) {
     for (Entry& entry : entries_) {
-      entry.times.push_back(entry.contender->render(frame).ms);
+      entry.times.push_back(take_turn(*entry.contender, frame).ms);
       stop_if_interrupted();
       progress.show(++done);
     }

@@ -38,6 +38,11 @@ class Contender {
   [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
+// A contender's turn among others: draws frames for 20 ms or more, one at least, and gives the time
+// of the last. A device that draws a frame in a millisecond has then left the low clocks of its
+// pauses, and the other contenders' kernels its caches.
+Timing take_turn(Contender& contender, Frame& frame);
+
 // All contenders below keep references to the scene and the device, which must outlive them.
 
 // Writes an image and traces nothing: a lower bound of every frame's time.

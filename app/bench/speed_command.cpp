@@ -102,7 +102,7 @@ class Race {
     // In turns, so that other load on the machine affects all contenders alike.
     for (uint32_t run = 0; run < options_.runs; ++run) {
       for (Runner& row : rows_) {
-        const bench::Timing time = row.contender->render(frame);
+        const bench::Timing time = bench::take_turn(*row.contender, frame);
         row.times.push_back(time.ms);
         row.cpu_times.push_back(time.cpu_ms);
         stop_if_interrupted();

@@ -376,6 +376,8 @@ tests() {
         failed+=("${line%%[, ]*}")
         [ ${#failed[@]} -gt 3 ] || printf '%s\n' "${failed[-1]}" "${said[@]:0:20}" >>"$work/failed" ;;
       '[ RUN      ]'*) said=() ;;
+      # Of a source's path, what is in the project.
+      */tests/*:\ Failure) said+=("  tests/${line#*/tests/}") ;;
       *) said+=("  $line") ;;
     esac
   done <"$work/text"

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/accuracy/float_operations.h"
 #include "app/bake/subpatch_bounds.h"
 #include "app/dispatch/cpu_tracer.h"
 #include "app/oracle/oracle_tracer.h"
@@ -106,7 +107,13 @@ TEST_F(Robust, SphereIsMetOnTheSphere) {
   EXPECT_LE(worst, 1e-6);
 }
 
+// Where the device rounds quotients and roots as the CPU does. Elsewhere (NVIDIA's roots are off by
+// up to 0.9 ulp) what is computed with them has other bits, which Promise judges; the patches are
+// the same there too.
 TEST_F(Robust, TheCpuHasTheSameBits) {
+  const FloatReport floats = measure_floats(test::validated_device());
+  const bool same_quotients = floats.divide.ulp <= 0.5;
+  const bool same_roots = floats.sqrt.ulp <= 0.5;
   for (const auto& [surface, shell] : {std::pair{SURFACE_PHONG, SHELL_NORMAL},
                                        {SURFACE_PHONG, SHELL_HEIGHT},
                                        {SURFACE_SPHERE, SHELL_NORMAL},
@@ -118,8 +125,10 @@ TEST_F(Robust, TheCpuHasTheSameBits) {
       const Frame gpu = test::trace(scene, settings);
       Frame cpu;
       trace_on_cpu(scene, make_params(scene, settings), {SOLVER_ROBUST, true, true}, cpu);
+      const bool same_bits = same_quotients && (same_roots || surface == SURFACE_PHONG);
       for (std::size_t i = 0; i < gpu.aovs.size(); ++i) {
         ASSERT_EQ(gpu.aovs[i].triangle, cpu.aovs[i].triangle) << asset << " pixel " << i;
+        if (!same_bits) continue;
         ASSERT_EQ(gpu.aovs[i].normal_z.w, cpu.aovs[i].normal_z.w) << asset << " pixel " << i;
         ASSERT_EQ(gpu.aovs[i].geometric_u.w, cpu.aovs[i].geometric_u.w) << asset << " pixel " << i;
         ASSERT_EQ(gpu.aovs[i].v, cpu.aovs[i].v) << asset << " pixel " << i;

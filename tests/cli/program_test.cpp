@@ -202,7 +202,7 @@ TEST_F(Program, ComplainsAboutDevicesWithCode4) {
 TEST_F(Program, StopsWhenInterruptedAndLeavesNothing) {
   const test::ProgramRun run = test::interrupt_trisect(
       {"render", test::asset_path("teapot-1000"), "-o", folder_ / "a.png", "--size", "1600x1200",
-       "--runs", "50", "--stats", folder_ / "s.json"},
+       "--runs", "100000", "--stats", folder_ / "s.json"},
       1500);
   expect_complaint(run, 130, "interrupted");
 }

@@ -211,7 +211,7 @@ TEST_F(Acceleration, WorksWithEveryVersionOfVulkan) {
   const std::size_t limit = scene.triangles.size() * sizeof(Triangle) - 1;
   const Frame list = trace(scene, settings, Accel::list);
   for (const uint32_t version : {VK_API_VERSION_1_1, VK_API_VERSION_1_2, VK_API_VERSION_1_3}) {
-    const gpu::Instance instance(true, {}, version);
+    const gpu::Instance instance(test::validates(), {}, version);
     {
       const gpu::Device device(instance, "");
       const std::string what = "Vulkan 1." + std::to_string(VK_API_VERSION_MINOR(version));

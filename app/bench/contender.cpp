@@ -1,0 +1,18 @@
+#include "app/bench/contender.h"
+
+#include <chrono>
+
+namespace trisect::bench {
+
+Timing take_turn(Contender& contender, Frame& frame) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds least(20);
+  const Clock::time_point begun = Clock::now();
+  Timing last;
+  do {
+    last = contender.render(frame);
+  } while (Clock::now() - begun < least);
+  return last;
+}
+
+}  // namespace trisect::bench
