@@ -39,8 +39,8 @@ class Contender {
 };
 
 // A contender's turn among others: draws frames for 20 ms or more, one at least, and gives the time
-// of the last. A device that draws a frame in a millisecond has then left the low clocks of its
-// pauses, and the other contenders' kernels its caches.
+// of the last. So a frame of a millisecond is not timed right after a pause of the device, or with
+// what the contender before left in its caches.
 Timing take_turn(Contender& contender, Frame& frame);
 
 // All contenders below keep references to the scene and the device, which must outlive them.

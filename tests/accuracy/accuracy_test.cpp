@@ -107,9 +107,9 @@ TEST_F(Robust, SphereIsMetOnTheSphere) {
   EXPECT_LE(worst, 1e-6);
 }
 
-// Where the device rounds quotients and roots as the CPU does. Elsewhere (NVIDIA's roots are off by
-// up to 0.9 ulp) what is computed with them has other bits, which Promise judges; the patches are
-// the same there too.
+// The patches on every device; Z, U and V only where the device rounds quotients and roots as the
+// CPU does. NVIDIA's roots are off by up to 0.9 ulp, and its sphere surface has other bits; there
+// Promise judges Z.
 TEST_F(Robust, TheCpuHasTheSameBits) {
   const FloatReport floats = measure_floats(test::validated_device());
   const bool same_quotients = floats.divide.ulp <= 0.5;
