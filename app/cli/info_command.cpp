@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -76,6 +77,55 @@ std::vector<std::pair<std::string, std::size_t>> meshes_of(const PolygonModel& m
   return meshes;
 }
 
+// Whether positions or normals are rounded more coarsely than floats.
+bool is_quantised(const Model& model) {
+  return model.polygons.position_rounding > 0.0 || model.polygons.normal_rounding > 0.0;
+}
+
+// How far the phong surface is moved, if that can be told: made normals depend on all positions
+// around.
+std::optional<double> moved_by_quantisation(const Model& model) {
+  const PolygonModel& polygons = model.polygons;
+  const double moved = moved_by_rounding(model.built.mesh, SurfaceChoice{}.alpha,
+                                         polygons.position_rounding, polygons.normal_rounding);
+  const bool is_known = std::isfinite(moved) && model.built.report.normals == NormalSource::file;
+  return is_known ? std::optional(moved) : std::nullopt;
+}
+
+// The angle between unit vectors, in degrees.
+double degrees_between(double difference) {
+  return glm::degrees(2.0 * std::asin(std::min(0.5 * difference, 1.0)));
+}
+
+ordered_json quantisation_of(const Model& model) {
+  if (!is_quantised(model)) return nullptr;
+  const PolygonModel& polygons = model.polygons;
+  const auto known = [](double value) {
+    return std::isfinite(value) ? ordered_json(value) : ordered_json();
+  };
+  const std::optional<double> moved = moved_by_quantisation(model);
+  return {{"positions", known(polygons.position_rounding)},
+          {"normals_degrees", std::isfinite(polygons.normal_rounding)
+                                  ? ordered_json(degrees_between(polygons.normal_rounding))
+                                  : ordered_json()},
+          {"phong_moved", moved ? ordered_json(*moved) : ordered_json()}};
+}
+
+std::string quantisation_text(const Model& model) {
+  const PolygonModel& polygons = model.polygons;
+  if (!std::isfinite(polygons.position_rounding + polygons.normal_rounding)) {
+    return "by a compression that does not say how far it rounds";
+  }
+  std::string text =
+      fmt::format("positions are off by up to {:.2g}, normals by {:.2g} degrees",
+                  polygons.position_rounding, degrees_between(polygons.normal_rounding));
+  if (const std::optional<double> moved = moved_by_quantisation(model)) {
+    text += fmt::format("; phong moves by at most {:.2g}, {:.2g} of the radius", *moved,
+                        *moved / model.facts.radius);
+  }
+  return text;
+}
+
 // What to do about what was found.
 std::vector<std::string> advice_of(const Model& model) {
   const MeshReport& report = model.built.report;
@@ -131,6 +181,7 @@ ordered_json json_of(const InfoOptions& options, const Model& model) {
                       {"non_manifold", report.non_manifold_edges},
                       {"opposite_winding", report.flipped_edges}}},
                     {"turned", report.turned}};
+  json["quantisation"] = quantisation_of(model);
   for (const auto& [name, polygons] : meshes_of(model.polygons)) {
     json["meshes"].push_back({{"name", name}, {"polygons", polygons}});
   }
@@ -174,6 +225,7 @@ void print(const InfoOptions& options, const Model& model) {
   row("bounds", fmt::format("{:.6g},{:.6g},{:.6g} to {:.6g},{:.6g},{:.6g}; radius {:.6g}",
                             facts.low.x, facts.low.y, facts.low.z, facts.high.x, facts.high.y,
                             facts.high.z, facts.radius));
+  if (is_quantised(model)) row("quantised", quantisation_text(model));
   const char* normals = report.normals == NormalSource::file ? "from the file"
                         : report.normals == NormalSource::welded
                             ? "made"

@@ -128,4 +128,21 @@ ModelFacts facts_of(const Mesh& mesh, uint surface) {
   return facts;
 }
 
+double moved_by_rounding(const Mesh& mesh, double alpha, double position, double normal) {
+  double displacement = 0.0;  // over all edges, three times the largest
+  double change = 0.0;
+  for (const MeshTriangle& t : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      const dvec3 edge = mesh.positions[t.vertex[j]] - mesh.positions[t.vertex[i]];
+      const dvec3 turn = mesh.normals[t.normal[j]] - mesh.normals[t.normal[i]];
+      displacement = std::max(displacement, std::abs(alpha * glm::dot(edge, turn)));
+      change =
+          std::max(change, std::abs(alpha) * (2.0 * position * (glm::length(turn) + 2.0 * normal) +
+                                              2.0 * normal * glm::length(edge)));
+    }
+  }
+  return position + (change + (displacement + change) * normal) / 3.0;
+}
+
 }  // namespace trisect

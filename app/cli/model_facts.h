@@ -36,4 +36,11 @@ constexpr double kSteepLean = 60.0;
 // surface: SURFACE_PHONG or SURFACE_SPHERE. Throws InputError as bake() does, Interrupted.
 ModelFacts facts_of(const Mesh& mesh, uint surface);
 
+// How far the phong surface in the normal shell, with this alpha, can be from that of positions up
+// to `position` away and unit normals up to `normal` away: with E an edge and dN the difference of
+// its normals, |s_ij| changes by at most c = |alpha| (2 position (|dN| + 2 normal) + 2 normal |E|),
+// the displacement by c / 3, for the sum of w_i w_j over the edges is 1/3 at most, and the shell's
+// direction, which is no longer than 1, by `normal`. A length; infinite if one of the two is.
+double moved_by_rounding(const Mesh& mesh, double alpha, double position, double normal);
+
 }  // namespace trisect

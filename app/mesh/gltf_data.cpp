@@ -7,6 +7,7 @@
 #include <array>
 #include <cctype>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "app/base/error.h"
@@ -102,6 +103,22 @@ double read_as(const char* at) {
 }
 
 // A component as a number; normalised ones are from -1 or 0 to 1.
+// Table::step of components.
+double step_of(uint32_t type, bool normalised) {
+  if (type == kFloat) return 0.0;
+  if (!normalised) return 1.0;
+  switch (type) {
+    case kByte:
+      return 1.0 / 127.0;
+    case kUnsignedByte:
+      return 1.0 / 255.0;
+    case kShort:
+      return 1.0 / 32767.0;
+    default:
+      return 1.0 / 65535.0;
+  }
+}
+
 double component_at(const char* at, uint32_t type, bool normalised) {
   switch (type) {
     case kByte:
@@ -195,14 +212,20 @@ Table Data::table(std::size_t index) {
   if (column == columns.end() || size_of(type) == 0) {
     fail(fmt::format("accessor {} has an unknown type", index));
   }
-  Table table{column->second, {}};
+  const bool normalised = accessor.value("normalized", false);
+  Table table{column->second, {}, step_of(type, normalised)};
   const std::size_t rows = whole(accessor.at("count"));
   if (rows > 0xffffffffU) fail(fmt::format("accessor {} has too many elements", index));
-  Place place{0, 0, 0, type, accessor.value("normalized", false)};
+  Place place{0, 0, 0, type, normalised};
   if (accessor.contains("bufferView")) {
     place.view = whole(accessor.at("bufferView"));
     place.offset = whole_or(accessor, "byteOffset", 0);
-    place.stride = whole_or(element("bufferViews", place.view), "byteStride", 0);
+    const json& view = element("bufferViews", place.view);
+    place.stride = whole_or(view, "byteStride", 0);
+    const json* packed = extension_of(view, "EXT_meshopt_compression");
+    if (packed != nullptr && packed->value("filter", std::string("NONE")) != "NONE") {
+      table.step = std::numeric_limits<double>::infinity();
+    }
     read(place, rows, table, index);
   } else {
     table.numbers.assign(rows * table.columns, 0.0);
@@ -312,9 +335,9 @@ void Data::replace_some(const json& sparse, const Place& like, Table& table, std
   const json& indices = sparse.at("indices");
   const auto index_type = static_cast<uint32_t>(whole(indices.at("componentType")));
   if (size_of(index_type) == 0) fail(fmt::format("accessor {} has an unknown type", accessor));
-  Table places{1, {}};
+  Table places{1, {}, 0.0};
   read(place_of(indices, index_type, false), rows, places, accessor);
-  Table others{table.columns, {}};
+  Table others{table.columns, {}, 0.0};
   read(place_of(sparse.at("values"), like.component_type, like.normalised), rows, others, accessor);
   for (std::size_t row = 0; row < rows; ++row) {
     const double place = places.numbers[row];

@@ -24,6 +24,9 @@ std::size_t whole_or(const nlohmann::json& object, const char* key, std::size_t 
 struct Table {
   std::size_t columns = 0;
   std::vector<double> numbers;
+  // The step between the numbers that it can have: 0 for floats, infinite if a compression has
+  // rounded them and does not say how far.
+  double step = 0.0;
 
   [[nodiscard]] std::size_t rows() const { return columns == 0 ? 0 : numbers.size() / columns; }
   [[nodiscard]] glm::dvec3 vector(std::size_t row) const {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
+#include <limits>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -98,7 +99,8 @@ class Primitive {
           mesh->GetAttributeByUniqueId(static_cast<uint32_t>(whole(id)));
       if (attribute == nullptr) data_.fail("a packed mesh lacks " + name);
       const auto columns = static_cast<std::size_t>(attribute->num_components());
-      Table table{columns, std::vector<double>(mesh->num_points() * columns)};
+      Table table{columns, std::vector<double>(mesh->num_points() * columns),
+                  std::numeric_limits<double>::infinity()};
       for (draco::PointIndex i(0); i < mesh->num_points(); ++i) {
         attribute->ConvertValue<double>(attribute->mapped_index(i), static_cast<int8_t>(columns),
                                         &table.numbers[i.value() * columns]);
@@ -150,6 +152,25 @@ dmat4 local_matrix(const json& node) {
   }
   matrix[3] = glm::dvec4(t[0], t[1], t[2], 1.0);
   return matrix;
+}
+
+// The largest length of M e for vectors e whose components are half a step at most.
+double largest_rounding(const dmat3& m, double step) {
+  if (step == 0.0) return 0.0;
+  double largest = 0.0;
+  for (const double y : {-1.0, 1.0}) {
+    for (const double z : {-1.0, 1.0}) {
+      largest = std::max(largest, glm::length(m[0] + m[1] * y + m[2] * z));
+    }
+  }
+  return 0.5 * step * largest;
+}
+
+// By how much a unit vector differs from that of a vector that is `rounding` away from one of this
+// length.
+double unit_rounding(double rounding, double length) {
+  if (rounding == 0.0 || length == 0.0) return 0.0;
+  return rounding < length ? 2.0 * std::sin(0.5 * std::asin(rounding / length)) : 2.0;
 }
 
 // Puts the meshes of a scene together.
@@ -274,9 +295,17 @@ class GltfScene {
     for (std::size_t i = 0; i < count; ++i) {
       const dmat4& at = bones.empty() ? matrix : bones[i];
       const dvec3 position(at * glm::dvec4(positions->vector(i), 1.0));
+      if (i == 0 || !bones.empty()) {
+        model_.position_rounding =
+            std::max(model_.position_rounding, largest_rounding(dmat3(at), positions->step));
+      }
       dvec3 normal(0.0);
       if (normals) {
-        normal = (bones.empty() ? turn : matrix_for_normals(dmat3(at))) * normals->vector(i);
+        const dmat3 turn_here = bones.empty() ? turn : matrix_for_normals(dmat3(at));
+        normal = turn_here * normals->vector(i);
+        model_.normal_rounding = std::max(
+            model_.normal_rounding,
+            unit_rounding(largest_rounding(turn_here, normals->step), glm::length(normal)));
       }
       if (!add_vertex(position, normals ? &normal : nullptr, model_)) {
         data_.fail(fmt::format("vertex {} of a mesh is not three finite numbers", i));
@@ -324,6 +353,7 @@ class GltfScene {
       for (std::size_t k = 0; k < table.numbers.size(); ++k) {
         table.numbers[k] += weights[i] * change.numbers[k];
       }
+      table.step += std::abs(weights[i]) * change.step;
     }
   }
 

@@ -32,6 +32,11 @@ struct PolygonModel {
   // Of each polygon: normals that are made are smooth between polygons of the same group; 0 is a
   // group of one polygon. Empty: all polygons are in one.
   std::vector<uint32_t> smoothing_groups;
+  // How far quantisation can have moved what the file's author had: positions, a length, and
+  // normals, the length of the difference of unit vectors. 0 if it has floats, infinite if a
+  // compression does not say.
+  double position_rounding = 0.0;
+  double normal_rounding = 0.0;
   std::vector<PolygonGroup> groups;  // those that have polygons; none if the file names none
   // What was left out, or is not taken as the file has it: phrases for a person, "3 lines left
   // out".

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <random>
 #include <vector>
 
 #include "app/mesh/mesh_builder.h"
@@ -55,6 +58,46 @@ TEST(ModelFacts, CountTrianglesWithoutAHeightShell) {
   const ModelFacts facts = facts_of(build_mesh(positions, normals, triangle).mesh, SURFACE_PHONG);
   EXPECT_EQ(facts.without_height_shell, 1U);
   EXPECT_NEAR(facts.largest_lean, 90.0, 1e-12);
+}
+
+// Models moved at random, as far as a bound was asked for.
+TEST(ModelFacts, BoundWhatRoundingsMove) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const auto direction = [&] {
+    return glm::normalize(dvec3(unit(random), unit(random), unit(random)) + dvec3(1e-9));
+  };
+  const Mesh mesh = test::load_asset("sphere-20");
+  const SurfaceChoice choice{SURFACE_PHONG, 0.65, SHELL_NORMAL};
+  const BakedScene scene = bake(mesh, choice);
+  for (const double position : {0.0, 1e-3, 0.1}) {
+    for (const double normal : {0.0, 1e-2, 0.2}) {
+      const double bound = moved_by_rounding(mesh, 0.65, position, normal);
+      double moved = 0.0;
+      for (int i = 0; i < 20; ++i) {
+        Mesh other = mesh;
+        for (dvec3& p : other.positions) p += direction() * position;
+        for (dvec3& n : other.normals) {
+          // Turned by the angle of that chord.
+          const dvec3 aside = glm::normalize(glm::cross(n, direction()));
+          const double angle = 2.0 * std::asin(0.5 * normal);
+          n = n * std::cos(angle) + aside * std::sin(angle);
+        }
+        const BakedScene changed = bake(other, choice);
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+          const auto point = [&](const BakedScene& of, const dvec3& w) {
+            return of.origin +
+                   in_double::surface_point(shape_of(choice), to_double(of.triangles[t]), w);
+          };
+          for (const dvec3& w : test::weight_grid(6)) {
+            moved = std::max(moved, glm::distance(point(scene, w), point(changed, w)));
+          }
+        }
+      }
+      EXPECT_LE(moved, bound + 1e-6);  // positions are in single precision
+      EXPECT_GE(moved, 0.2 * bound - 1e-6);
+    }
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <meshoptimizer.h>
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -236,6 +237,13 @@ TEST(GltfFile, ReadsQuantisedAccessors) {
   const PolygonModel model = parse_bytes(file.text());
   EXPECT_EQ(model.positions[2], dvec3(3, 3, 0));
   EXPECT_EQ(model.normals[2].y, -9.0);  // cofactors of a scale by 3
+  // Half a step in each direction.
+  EXPECT_NEAR(model.position_rounding, 0.5 * std::sqrt(3.0) * 3.0 / 65535.0, 1e-15);
+  EXPECT_NEAR(model.normal_rounding, 0.5 * std::sqrt(3.0) / 127.0, 1e-6);
+  // Of floats there are none.
+  const PolygonModel floats = parse_bytes(square_file(6).text());
+  EXPECT_EQ(floats.position_rounding, 0.0);
+  EXPECT_EQ(floats.normal_rounding, 0.0);
 }
 
 TEST(GltfFile, ReplacesElementsOfSparseAccessors) {
