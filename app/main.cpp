@@ -159,6 +159,34 @@ void add_info(CLI::App& app, InfoOptions& options, std::optional<std::string>& s
       ->type_name("FILE");
 }
 
+void add_export(CLI::App& app, ExportOptions& options, std::optional<std::string>& surface) {
+  CLI::App* command = app.add_subcommand(
+      "export", "Write a model's curved surface as flat triangles, for other programs");
+  command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  command->add_option("MODEL", options.model, "OBJ, glTF, PLY, STL or FBX file")->required();
+  command->add_option("-o,--output", options.output, "File to write: .obj, .ply, .stl or .glb")
+      ->required()
+      ->type_name("FILE");
+  add_mesh_options(*command, options.mesh);
+  command->add_option("--surface", surface, "Of which: flat, phong or sphere, default phong")
+      ->check(one_of({"flat", "phong", "sphere"}))
+      ->type_name("NAME");
+  add_alpha(*command, options.alpha);
+  CLI::Option_group* how = command->add_option_group("how fine");
+  how->add_option("--subdivide", options.subdivide, "N x N flat triangles for each of the model's")
+      ->check(number_from_to(1, 4000))
+      ->type_name("N");
+  how->add_option("--error", options.error,
+                  "As many as it takes to be off the surface by no more than this, in the model's "
+                  "units")
+      ->check(number_from_to(1e-300, 1e9))
+      ->type_name("EPS");
+  how->require_option(1);
+  command->add_option("--json", options.json, "Write the figures as JSON")
+      ->check(not_empty())
+      ->type_name("FILE");
+}
+
 void add_devices(CLI::App& app, DevicesOptions& options) {
   CLI::App* command = app.add_subcommand(
       "devices", "List the Vulkan devices, and what those that cannot be used lack");
@@ -208,6 +236,9 @@ int run(int argc, char** argv) {
   InfoOptions info_options;
   std::optional<std::string> info_surface;
   add_info(app, info_options, info_surface);
+  ExportOptions export_options;
+  std::optional<std::string> export_surface;
+  add_export(app, export_options, export_surface);
   DevicesOptions devices_options;
   add_devices(app, devices_options);
   app.footer(
@@ -226,6 +257,10 @@ int run(int argc, char** argv) {
   if (app.got_subcommand("info")) {
     if (info_surface) info_options.surface = surface_of(*info_surface);
     return info(info_options);
+  }
+  if (app.got_subcommand("export")) {
+    if (export_surface) export_options.surface = surface_of(*export_surface);
+    return export_mesh(export_options);
   }
   if (app.got_subcommand("devices")) return list_devices(devices_options);
   if (app.got_subcommand("accuracy")) return run_accuracy(accuracy_options, accuracy_text);

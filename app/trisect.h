@@ -36,4 +36,6 @@
 #include "app/picture/image_file.h"
 #include "app/picture/image_reader.h"
 #include "app/surface/surface_choice.h"
+#include "app/tessellation/flat_mesh.h"
+#include "app/tessellation/flat_mesh_file.h"
 #include "app/trace/trace_scene.h"

@@ -42,6 +42,14 @@ void add_surfaces(CLI::App& command, std::optional<std::string>& surface) {
       ->type_name("NAME");
 }
 
+void add_alpha(CLI::App& command, double& alpha) {
+  command
+      .add_option("--alpha", alpha,
+                  "phong: from 0 (flat) to 1 (full projection) and beyond, default 0.65")
+      ->check(number_from_to(-1000.0, 1000.0))
+      ->type_name("A");
+}
+
 void add_device(CLI::App& command, std::string& device) {
   command
       .add_option("--device", device,

@@ -48,6 +48,9 @@ void add_size(CLI::App& command, std::optional<std::string>& size, const std::st
 // Adds --surface to a command whose default is both curved surfaces.
 void add_surfaces(CLI::App& command, std::optional<std::string>& surface);
 
+// Adds --alpha.
+void add_alpha(CLI::App& command, double& alpha);
+
 // Adds --device.
 void add_device(CLI::App& command, std::string& device);
 

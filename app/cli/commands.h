@@ -27,6 +27,10 @@ int compare_images(const CompareOptions& options);
 // Prints what a model is like, what its curved surfaces will be like, and what to look at.
 int info(const InfoOptions& options);
 
+// Writes the curved surface as flat triangles. Returns exit_different if the bound is larger than
+// the error asked for.
+int export_mesh(const ExportOptions& options);
+
 // Lists the Vulkan devices, or the one asked for, and on request what their arithmetic does.
 // Returns exit_no_device if none can be used.
 int list_devices(const DevicesOptions& options);

@@ -66,6 +66,17 @@ struct InfoOptions {
   std::string json;
 };
 
+struct ExportOptions {
+  std::string model;
+  std::string output;
+  MeshOptions mesh;
+  uint surface = SURFACE_PHONG;
+  double alpha = 0.65;
+  std::optional<uint32_t> subdivide;  // one of the two is given
+  std::optional<double> error;
+  std::string json;
+};
+
 struct DevicesOptions {
   std::string device;  // empty: all of them
   bool floats = false;

@@ -45,11 +45,7 @@ void add_view(CLI::App& command, RenderOptions& options, SceneText& text) {
                   "How triangles are curved: flat, phong or sphere, default phong")
       ->check(one_of({"flat", "phong", "sphere"}))
       ->type_name("NAME");
-  command
-      .add_option("--alpha", options.alpha,
-                  "phong: from 0 (flat) to 1 (full projection) and beyond, default 0.65")
-      ->check(number_from_to(-1000.0, 1000.0))
-      ->type_name("A");
+  add_alpha(command, options.alpha);
   command
       .add_option("--shell", text.shell,
                   "Along what they are displaced: normal (watertight) or height (the thesis's), "

@@ -101,6 +101,129 @@ bool is_root_with_derivatives(const Patch& patch, std::size_t i, const HeightRan
          h.s.hi < h.limit.lo && h.s.lo > -h.limit.lo;
 }
 
+// The first and the second derivative of s_i along a direction in which T moves by e and D by d.
+struct HeightDerivatives {
+  Interval first;
+  Interval second;
+};
+
+// p = x + s D solves c p.p / 2 + p.N = 0. With g = c p + N, whose product with D is the root of the
+// discriminant, and primes for derivatives, twice differentiated:
+//   g.p'' + 2 c' p.p' + c p'.p' + c'' p.p / 2 = 0, p' = e + s d + s' D, p'' = s'' D + 2 s' d.
+// c depends on the angle of x: c' = rate t / x.x with t = x.(e x turn), c'' = -2 c' x.e / x.x.
+HeightDerivatives height_derivatives(const HeightRange& h, const dvec3& e, const dvec3& d) {
+  const Interval s = h.held;
+  const Interval s1 = in_double::height_change(h, e, d);
+  const Interval ee = in_double::dot_range(e, e);
+  const Interval xe = in_double::linear_range(h.x, e);
+  const Interval xd = in_double::linear_range(h.x, d);
+  const Interval De = in_double::linear_range(h.D, e);
+  const Interval Dd = in_double::linear_range(h.D, d);
+  const Interval moved = ee + square(s) * in_double::dot_range(d, d) + square(s1) * h.DD +
+                         2.0 * (s * in_double::dot_range(e, d) + s1 * De + s * s1 * Dd);
+  const Interval pp1 = xe + s * (xd + De) + s1 * h.xD + square(s) * Dd + s * s1 * h.DD;
+  const Interval gd = h.c * (xd + s * Dd) + in_double::dot_range(h.N, d);
+  Interval turned;  // 2 c' p.p' + c'' p.p / 2
+  if (h.xx.lo > 0.0) {
+    const Interval pp = h.xx + 2.0 * s * h.xD + square(s) * h.DD;
+    const Interval change =
+        divide_by_positive(in_double::linear_range(h.x, glm::cross(e, h.turn)) * h.rate, h.xx);
+    turned = change * (2.0 * pp1 - divide_by_positive(pp, h.xx) * xe);
+  } else {
+    // |t| <= |x| |e|, and |p| <= 2 |x| as |s D| is held to |x|.
+    const Interval size = root(ee);
+    const double most = (4.0 * in_double::range_magnitude(h.rate) * size * (root(moved) + size)).hi;
+    turned = {-most, most};
+  }
+  return {s1, divide_by_positive(-(2.0 * s1 * gd + turned + h.c * moved), h.root)};
+}
+
+// Whether s_i is the root all over a sub-triangle of the patch, its vertex included.
+bool is_smooth_root(const Patch& patch, std::size_t i, const HeightRange& h) {
+  return has_root(h) && h.discriminant.lo > 0.0 && h.root.lo > 0.0 && is_within_limit(patch, i, h);
+}
+
+// Of a w0 w1 + b w1 w2 + c w2 w0 over a triangle; a, b and c are not negative.
+double largest_of_products(double a, double b, double c) {
+  const double on_edge = 0.25 * std::max({a, b, c});
+  // Where the maximum is inside, the three derivatives are equal there.
+  if (!(a + b > c && b + c > a && c + a > b)) return on_edge;
+  return std::max(on_edge, a * b * c / (2.0 * (a * b + b * c + c * a) - a * a - b * b - c * c));
+}
+
+// The three bounds of |sigma - linear| (sphere_chord_bound).
+double by_second_derivatives(const std::array<Interval, 3>& second, const CornerWeights& weights,
+                             const SphereOverSubTriangle& over) {
+  std::array<double, 3> bent{};  // |H| along the piece's own edges, H the middle of the ranges
+  double rest = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const dvec3 d = weights[(k + 1) % 3] - weights[k];
+    double H = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto a = static_cast<int>(i);
+      const int b = (a + 1) % 3;
+      H -= d[a] * d[b] * 0.5 * (second[i].lo + second[i].hi);
+    }
+    bent[k] = std::abs(H);
+    const std::size_t next = (k + 1) % 3;
+    rest += (over.w[k].hi - over.w[k].lo) * (over.w[next].hi - over.w[next].lo) *
+            (second[k].hi - second[k].lo);
+  }
+  return 0.5 * largest_of_products(bent[0], bent[1], bent[2]) + rest / 16.0;
+}
+
+double by_derivatives(const Patch& patch, const std::array<HeightRange, 3>& heights,
+                      const SphereOverSubTriangle& over) {
+  std::array<double, 3> widths{};  // of the derivatives from vertex i toward the next
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    Interval along = heights[j].held - heights[i].held;
+    for (std::size_t k = 0; k < 3; ++k) {
+      along = along + over.w[k] * in_double::height_change(heights[k], patch.P[j] - patch.P[i],
+                                                           patch.D[j] - patch.D[i]);
+    }
+    widths[i] = along.hi - along.lo;
+  }
+  // Of the three pairs of coordinates the best counts: from a vertex toward the other two.
+  double best = kInfinity;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t next = (i + 1) % 3;
+    const std::size_t last = (i + 2) % 3;
+    const double off = 0.25 * (widths[i] * (over.w[next].hi - over.w[next].lo) +
+                               widths[last] * (over.w[last].hi - over.w[last].lo));
+    if (off < best) best = off;
+  }
+  return best;
+}
+
+std::optional<std::array<Interval, 3>> second_derivative_ranges(
+    const Patch& patch, const std::array<HeightRange, 3>& heights,
+    const SphereOverSubTriangle& over) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const bool none = heights[k].DN.hi < 0.0;  // s_k is 0
+    if (!none && !is_smooth_root(patch, k, heights[k])) return std::nullopt;
+  }
+  std::array<Interval, 3> second{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const dvec3 e = patch.P[j] - patch.P[i];
+    const dvec3 d = patch.D[j] - patch.D[i];
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (heights[k].DN.hi < 0.0) continue;
+      const HeightDerivatives s = height_derivatives(heights[k], e, d);
+      second[i] = second[i] + over.w[k] * s.second;
+      // The weights' own derivatives are -1 at i and 1 at j.
+      if (k == i) second[i] = second[i] - 2.0 * s.first;
+      if (k == j) second[i] = second[i] + 2.0 * s.first;
+    }
+  }
+  return second;
+}
+
+std::array<HeightRange, 3> height_ranges(const Patch& patch, const SphereOverSubTriangle& over) {
+  return {height_range(patch, 0, over), height_range(patch, 1, over), height_range(patch, 2, over)};
+}
+
 }  // namespace
 
 Interval direction_square_range(const Patch& patch, const CornerWeights& weights,
@@ -143,6 +266,47 @@ std::optional<SigmaRanges> sphere_derivative_ranges(const Patch& patch,
                           D[1] - D[0], D[2] - D[0]);
   }
   return SigmaRanges{sigma.s, sigma.u, sigma.v};
+}
+
+std::optional<std::array<Interval, 3>> sphere_second_derivative_ranges(
+    const Patch& patch, const CornerWeights& weights) {
+  const SphereOverSubTriangle over = sphere_over(patch, weights, corners_of(patch, weights));
+  if (!has_directions(over)) return std::nullopt;
+  return second_derivative_ranges(patch, height_ranges(patch, over), over);
+}
+
+double sphere_chord_bound(const Patch& patch, const CornerWeights& weights) {
+  const PatchCorners corners = corners_of(patch, weights);
+  // No point is displaced by more than its distance from a vertex (height_limit).
+  const double farthest = 2.0 * patch.longest * (1.0 + gamma_double(100));
+  const SphereOverSubTriangle over = sphere_over(patch, weights, corners);
+  if (!has_directions(over)) return farthest;
+  const std::array<HeightRange, 3> heights = height_ranges(patch, over);
+  Interval sigma(0.0);
+  for (std::size_t i = 0; i < 3; ++i) sigma = sigma + over.w[i] * heights[i].held;
+  // Written so that a NaN bounds nothing.
+  double off = sigma.hi - sigma.lo;
+  const auto second = second_derivative_ranges(patch, heights, over);
+  for (const double other : {by_derivatives(patch, heights, over),
+                             second ? by_second_derivatives(*second, weights, over) : off}) {
+    if (other < off) off = other;
+  }
+  std::array<double, 3> at{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    at[i] =
+        in_double::displacement({SURFACE_SPHERE, SHELL_NORMAL, 0.0}, patch.triangle, weights[i]);
+  }
+  double turn = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    turn = std::max(turn, std::abs(at[i] - at[j]) * glm::length(corners.D[i] - corners.D[j]));
+  }
+  // The sum of l_i l_j over the pairs is 1/3 at most. The slack covers the roundings of points;
+  // where sigma is steep those grow, but there the bound is made of sigma's range, which holds
+  // them.
+  const double bound = off * longest_of(corners.D) + turn / 3.0;
+  const double slack = patch.longest * gamma_double(900);
+  return bound < farthest ? bound * (1.0 + gamma_double(100)) + slack : farthest;
 }
 
 }  // namespace trisect

@@ -6,6 +6,7 @@
 // state and may be called from several threads.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "app/base/interval.h"
@@ -37,5 +38,29 @@ struct SigmaRanges {
 std::optional<SigmaRanges> sphere_derivative_ranges(const Patch& patch,
                                                     const CornerWeights& weights,
                                                     const PatchCorners& corners);
+
+// Ranges of the second derivatives of sigma along the patch's edges 01, 12 and 20, each edge once
+// from end to end: along a direction of weights d (sum 0) it is - sum_{i<j} d_i d_j times that of
+// edge ij. Nothing where a height may be at its limit or its line may miss the sphere. For weights
+// within the patch.
+std::optional<std::array<Interval, 3>> sphere_second_derivative_ranges(
+    const Patch& patch, const CornerWeights& weights);
+
+// A bound of |S(w) - L(w)| over the piece of a patch between the points of these weights, L linear
+// and equal to S there. Roundings included; for the normal shell. The best of three bounds of
+// |sigma - linear|:
+//
+// by second derivatives: sum_k l_k H_k(w_k - w) / 2 by Taylor's theorem, l the weights within the
+//   piece, w_k its corners, H_k the quadratic form of the second derivatives somewhere on the way.
+//   Of H's middle this is sum_{i<j} l_i l_j |H(w_i - w_j)| / 2 at most, and of the rest, by the
+//   inequality of Cauchy and Schwarz, sum_{i<j} W_i W_j / 8 times half the width of the range along
+//   edge ij, W_i the range of the patch's weight i in the piece;
+// by derivatives: sigma changes between two points by an element of the hull of its generalised
+//   gradients (Clarke 1983, theorem 2.3.7), so along a coordinate in which the piece has the width
+//   W it differs by at most W / 2 times half the width of the derivative's range;
+// by sigma's range.
+//
+// S - L = (sigma - linear) D - sum_{i<j} l_i l_j (sigma_i - sigma_j) (D_i - D_j).
+double sphere_chord_bound(const Patch& patch, const CornerWeights& weights);
 
 }  // namespace trisect

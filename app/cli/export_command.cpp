@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <system_error>
+
+#include "app/bake/bake.h"
+#include "app/base/atomic_file.h"
+#include "app/base/error.h"
+#include "app/cli/commands.h"
+#include "app/cli/interrupt.h"
+#include "app/cli/json_text.h"
+#include "app/cli/progress_line.h"
+#include "app/mesh/mesh_builder.h"
+#include "app/mesh/model_file.h"
+#include "app/tessellation/flat_mesh.h"
+#include "app/tessellation/flat_mesh_file.h"
+
+namespace trisect {
+namespace {
+
+// What the file's numbers leave of the error that is asked for.
+double error_for_surface(const ExportOptions& options, double rounding) {
+  if (*options.error > rounding) return *options.error - rounding;
+  throw UsageError(fmt::format(
+      "--error {:g}: the numbers in {} alone move vertices by up to {:.2g}: take a larger one{}.",
+      *options.error, options.output, rounding,
+      mesh_format_of(options.output) == MeshFormat::obj ? "" : ", or OBJ, which has more digits"));
+}
+
+FlatMesh flattened(const ExportOptions& options, const Mesh& mesh, const BakedScene& scene,
+                   double rounding) {
+  const BusyLine line("dividing " + options.model);
+  FlatMesh flat = options.subdivide
+                      ? divided_evenly(mesh, scene, *options.subdivide)
+                      : finished(divided_to(mesh, scene, error_for_surface(options, rounding),
+                                            not_interrupted));
+  flat.bound += rounding;
+  return flat;
+}
+
+}  // namespace
+
+int export_mesh(const ExportOptions& options) {
+  const std::optional<MeshFormat> format = mesh_format_of(options.output);
+  if (!format) {
+    throw UsageError(
+        fmt::format("-o {}: the name must end in .obj, .ply, .stl or .glb.", options.output));
+  }
+  AtomicFile file(options.output);
+  std::optional<AtomicFile> json_file;
+  if (!options.json.empty()) json_file.emplace(options.json);
+  const BuiltMesh built = build_mesh(read_model(options.model), options.model, options.mesh);
+  fmt::print("{}: {}\n", options.model, describe(built.report));
+  stop_if_interrupted();
+  const BakedScene scene = bake(built.mesh, {options.surface, options.alpha, SHELL_NORMAL});
+  const FlatMesh flat =
+      flattened(options, built.mesh, scene, file_rounding(built.mesh, scene, *format));
+  const std::size_t open_edges = count_open_edges(flat);
+  stop_if_interrupted();
+  write_mesh(flat, *format, file);
+  file.commit();
+  std::error_code unused;
+  const auto bytes = std::filesystem::file_size(options.output, unused);
+  fmt::print(
+      "{}: {} triangles, {} vertices, {}; off the surface by at most {:.3g} ({:.2g} of the "
+      "radius)\n",
+      options.output, flat.triangles.size(), flat.positions.size(),
+      open_edges == 0 ? "closed" : fmt::format("{} open edges", open_edges), flat.bound,
+      flat.bound / scene.extent);
+  const bool reached = !options.error || flat.bound <= *options.error;
+  if (!reached) {
+    fmt::print(
+        "{}: {:g} is not proven for {} of the triangles, where the surface is too steep or its "
+        "edges "
+        "do not meet\n",
+        options.output, *options.error, flat.beyond_error);
+  }
+  if (json_file) {
+    nlohmann::ordered_json json{{"program", "trisect"},
+                                {"version", TRISECT_VERSION},
+                                {"model", options.model},
+                                {"output", options.output},
+                                {"surface", surface_name(options.surface)},
+                                {"patches", scene.triangles.size()},
+                                {"triangles", flat.triangles.size()},
+                                {"vertices", flat.positions.size()},
+                                {"open_edges", open_edges},
+                                {"bound", flat.bound},
+                                {"beyond_error", flat.beyond_error},
+                                {"error", options.error ? nlohmann::ordered_json(*options.error)
+                                                        : nlohmann::ordered_json()},
+                                {"radius", scene.extent},
+                                {"bytes", bytes}};
+    json_file->write(json_text(json));
+    json_file->commit();
+  }
+  return reached ? exit_done : exit_different;
+}
+
+}  // namespace trisect

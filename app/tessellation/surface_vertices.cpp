@@ -1,0 +1,98 @@
+#include "app/tessellation/surface_vertices.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "app/surface/to_double.h"
+
+namespace trisect {
+namespace {
+
+using glm::dvec3;
+
+constexpr uint32_t kNoVertex = 0xffffffffU;
+
+uint64_t pair_of(uint32_t a, uint32_t b) {
+  return (uint64_t{a} << 32U) | b;
+}
+
+}  // namespace
+
+SurfaceVertices::SurfaceVertices(const Mesh& mesh, const BakedScene& scene)
+    : mesh_(mesh),
+      scene_(scene),
+      shape_(shape_of(scene.choice)),
+      first_of_place_(mesh.positions.size(), kNoVertex) {}
+
+uint32_t SurfaceVertices::at_corner(uint32_t patch, std::size_t corner) {
+  const uint32_t place = mesh_.triangles[patch].vertex[corner];
+  // Normals count as the surface has them, in single precision.
+  const glm::vec3 normal(scene_.triangles[patch].Normal[static_cast<int>(corner)]);
+  for (uint32_t v = first_of_place_[place]; v != kNoVertex; v = next_[v]) {
+    if (normals_[v] == normal) return v;
+  }
+  return add(mesh_.positions[place], normal, place);
+}
+
+uint32_t SurfaceVertices::within(uint32_t patch, const dvec3& weights) {
+  const auto place = static_cast<uint32_t>(first_of_place_.size());
+  first_of_place_.push_back(kNoVertex);
+  return on_surface(patch, weights, place);
+}
+
+SurfaceVertices::Between SurfaceVertices::between(uint32_t patch, const PieceCorner& a,
+                                                  const PieceCorner& b, uint32_t count) {
+  // By the places, so that both sides of a hard edge count from the same end.
+  if (place_[a.vertex] > place_[b.vertex]) return {between(patch, b, a, count).first, true};
+  const auto [vertices, is_new] = vertices_between_.try_emplace(
+      pair_of(a.vertex, b.vertex), static_cast<uint32_t>(positions_.size()));
+  if (!is_new) return {vertices->second, false};
+  const auto [place, is_divided_now] =
+      places_between_.try_emplace(edge(a, b), static_cast<uint32_t>(first_of_place_.size()));
+  if (is_divided_now) first_of_place_.resize(first_of_place_.size() + count, kNoVertex);
+  for (uint32_t i = 0; i < count; ++i) {
+    const double along = static_cast<double>(i + 1) / static_cast<double>(count + 1);
+    on_surface(patch, a.weights * (1.0 - along) + b.weights * along, place->second + i);
+  }
+  return {vertices->second, false};
+}
+
+uint64_t SurfaceVertices::edge(const PieceCorner& a, const PieceCorner& b) const {
+  const auto [low, high] = std::minmax(place_[a.vertex], place_[b.vertex]);
+  return pair_of(low, high);
+}
+
+void SurfaceVertices::forget_edges() {
+  vertices_between_.clear();
+  places_between_.clear();
+}
+
+dvec3 SurfaceVertices::surface_point(uint32_t patch, const dvec3& weights) const {
+  return scene_.origin +
+         in_double::surface_point(shape_, to_double(scene_.triangles[patch]), weights);
+}
+
+uint32_t SurfaceVertices::add(const dvec3& position, const glm::vec3& normal, uint32_t place) {
+  const auto vertex = static_cast<uint32_t>(positions_.size());
+  positions_.push_back(position);
+  normals_.push_back(normal);
+  place_.push_back(place);
+  next_.push_back(std::exchange(first_of_place_[place], vertex));
+  return vertex;
+}
+
+uint32_t SurfaceVertices::on_surface(uint32_t patch, const dvec3& weights, uint32_t place) {
+  const in_double::Triangle tri = to_double(scene_.triangles[patch]);
+  dvec3 normal = in_double::vertex_normal(tri, weights);
+  const double length = glm::length(normal);
+  normal = length > 0.0 ? normal / length : in_double::geometric_normal(shape_, tri, weights);
+  dvec3 point = scene_.origin + in_double::surface_point(shape_, tri, weights);
+  // Where the two sides of a hard edge have the same curve, roundings must not part them.
+  if (const uint32_t other = first_of_place_[place]; other != kNoVertex) {
+    const double rounding = 1e-14 * (scene_.extent + glm::length(scene_.origin));
+    if (glm::distance(point, positions_[other]) <= rounding) point = positions_[other];
+  }
+  return add(point, glm::vec3(normal), place);
+}
+
+}  // namespace trisect
