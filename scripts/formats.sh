@@ -31,6 +31,9 @@ Points and lines are left out. Units and axes stay as they are in the file. glTF
 tinygltf 2.7 refuses buffers that only stand in for compressed ones and reads Draco's views unchecked, and Assimp 5.2 takes
 no quantised positions.
 
+Reading 450,000 triangles and making a mesh of them takes 5.9 times the file's size of memory in binary PLY, 5.4 in binary STL
+and 5.2 in GLB: the test ModelFile.ReadsInSixTimesItsSize prints it and holds it to 6.
+
 ![All of them](formats.jpg)
 
 |  | file | triangles | what trisect says |

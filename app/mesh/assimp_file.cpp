@@ -3,6 +3,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <assimp/Importer.hpp>
 #include <cstddef>
@@ -70,6 +71,10 @@ class AssimpScene {
     const bool has_normals = takes_normals_ && mesh.HasNormals();
     const bool mirrored = glm::determinant(dmat3(matrix)) < 0.0;
     const dmat3 turn = matrix_for_normals(dmat3(matrix));
+    make_room(mesh.mNumVertices, model_.positions);
+    if (has_normals) make_room(mesh.mNumVertices, model_.normals);
+    make_room(mesh.mNumFaces, model_.sizes);
+    make_room(std::size_t{3} * mesh.mNumFaces, model_.corners);
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
       const dvec3 position(matrix * glm::dvec4(vector_from(mesh.mVertices[i]), 1.0));
       dvec3 normal(0.0);
@@ -109,18 +114,28 @@ class AssimpScene {
 
 }  // namespace
 
-PolygonModel parse_by_assimp(std::string_view bytes, const std::string& format,
+PolygonModel parse_by_assimp(std::string bytes, const std::string& format,
                              const std::string& name) {
-  Assimp::Importer importer;
-  // From memory, so that nothing beside the file is read.
-  const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, format.c_str());
-  if (scene == nullptr) {
-    std::string reason = importer.GetErrorString();
-    while (reason.ends_with('.') || reason.ends_with('\n')) reason.pop_back();
-    throw InputError(fmt::format("{}: cannot be read as {}: {}.", name, format,
-                                 reason.empty() ? "it is damaged" : reason));
+  PolygonModel model;
+  {
+    Assimp::Importer importer;
+    // From memory, so that nothing beside the file is read.
+    const aiScene* scene =
+        importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, format.c_str());
+    if (scene == nullptr) {
+      std::string reason = importer.GetErrorString();
+      while (reason.ends_with('.') || reason.ends_with('\n')) reason.pop_back();
+      throw InputError(fmt::format("{}: cannot be read as {}: {}.", name, format,
+                                   reason.empty() ? "it is damaged" : reason));
+    }
+    // Two copies of a model are enough.
+    bytes = std::string();
+    malloc_trim(0);
+    model = AssimpScene(*scene, format != "stl", name).assemble();
   }
-  return AssimpScene(*scene, format != "stl", name).assemble();
+  // Assimp allocates each face; what those leave is of no use to the large arrays that follow.
+  malloc_trim(0);
+  return model;
 }
 
 }  // namespace trisect

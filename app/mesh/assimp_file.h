@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "app/mesh/polygon_model.h"
 
@@ -12,7 +11,6 @@ namespace trisect {
 // units and axes. format: "ply", "stl" or "fbx". STL has normals of facets only: they are ignored,
 // and smooth ones are made. Points and lines are left out, the notes say how many. `name` stands
 // for the file in messages. Throws InputError if it cannot be read or has no faces.
-PolygonModel parse_by_assimp(std::string_view bytes, const std::string& format,
-                             const std::string& name);
+PolygonModel parse_by_assimp(std::string bytes, const std::string& format, const std::string& name);
 
 }  // namespace trisect

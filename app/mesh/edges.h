@@ -14,8 +14,8 @@ namespace trisect {
 struct Side {
   std::pair<uint32_t, uint32_t> edge;  // lower vertex first
   uint32_t triangle;
-  uint32_t corner;  // at which it begins
-  bool forward;     // from the lower vertex to the other
+  uint8_t corner;  // at which it begins
+  bool forward;    // from the lower vertex to the other
 };
 
 // All sides of triangles 0 to count - 1, those of the same edge one after the other in the order of
@@ -26,7 +26,7 @@ std::vector<Side> sides_of(std::size_t count, VerticesOf&& vertices_of) {
   sides.reserve(count * 3);
   for (uint32_t t = 0; t < count; ++t) {
     const auto& vertices = vertices_of(t);
-    for (uint32_t i = 0; i < 3; ++i) {
+    for (uint8_t i = 0; i < 3; ++i) {
       const uint32_t from = vertices[i];
       const uint32_t to = vertices[(i + 1) % 3];
       sides.push_back({std::minmax(from, to), t, i, from < to});

@@ -292,6 +292,8 @@ class GltfScene {
     const std::vector<dmat4> bones = bones_of(primitive, node, count);
     bool mirrored = glm::determinant(dmat3(matrix)) < 0.0;
     const dmat3 turn = matrix_for_normals(dmat3(matrix));
+    make_room(count, model_.positions);
+    if (normals) make_room(count, model_.normals);
     for (std::size_t i = 0; i < count; ++i) {
       const dmat4& at = bones.empty() ? matrix : bones[i];
       const dvec3 position(at * glm::dvec4(positions->vector(i), 1.0));
@@ -312,14 +314,21 @@ class GltfScene {
       }
     }
     if (!bones.empty()) mirrored = glm::determinant(dmat3(bones[0])) < 0.0;
-    const std::size_t first_normal = model_.normals.size() - (normals ? count : 0);
+    const bool has_normals = normals.has_value();
+    const std::size_t first_normal = model_.normals.size() - (has_normals ? count : 0);
+    // The numbers of a large file are not kept longer than they are needed.
+    positions.reset();
+    normals.reset();
     const std::vector<uint32_t> indices = primitive.indices(count);
+    const std::size_t triangles = mode == kTriangles ? indices.size() / 3 : indices.size();
+    make_room(triangles, model_.sizes);
+    make_room(3 * triangles, model_.corners);
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
       if (mirrored) std::swap(b, c);
       for (const std::size_t i : {a, b, c}) {
         model_.corners.push_back({static_cast<uint32_t>(first + indices[i]),
-                                  normals ? static_cast<uint32_t>(first_normal + indices[i])
-                                          : PolygonCorner::no_normal});
+                                  has_normals ? static_cast<uint32_t>(first_normal + indices[i])
+                                              : PolygonCorner::no_normal});
       }
       model_.sizes.push_back(3);
     };

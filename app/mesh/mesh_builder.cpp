@@ -1,6 +1,7 @@
 #include "app/mesh/mesh_builder.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,20 +10,13 @@
 
 #include "app/base/error.h"
 #include "app/mesh/edges.h"
+#include "app/mesh/made_normals.h"
 #include "app/mesh/polygon.h"
 
 namespace trisect {
 namespace {
 
 using glm::dvec3;
-
-// A triangle whose corners are still indices into the model, and the welded positions of its
-// corners.
-struct Corners {
-  std::array<PolygonCorner, 3> corner;
-  std::array<uint32_t, 3> welded;
-  uint32_t smoothing_group;
-};
 
 constexpr uint32_t kNone = 0xffffffffU;
 
@@ -113,16 +107,6 @@ std::vector<uint32_t> outline_of(std::span<const uint32_t> welded) {
   return kept;
 }
 
-// The face normal with twice the triangle's area as its length.
-dvec3 area_vector(const std::array<dvec3, 3>& p) {
-  return glm::cross(p[1] - p[0], p[2] - p[0]);
-}
-
-std::array<dvec3, 3> points_of(const std::array<uint32_t, 3>& vertex,
-                               const std::vector<dvec3>& positions) {
-  return {positions[vertex[0]], positions[vertex[1]], positions[vertex[2]]};
-}
-
 // Whether a triangle has no area up to rounding: its height over the longest edge is less than
 // eight units in the last place of that edge. A triangle whose squared edges overflow does not
 // count: bake() refuses such a model with a message about its size.
@@ -137,146 +121,15 @@ bool degenerate(const std::array<dvec3, 3>& p) {
   return area <= ulps * longest && std::isfinite(longest);
 }
 
-double angle_at(const std::array<dvec3, 3>& p, std::size_t i) {
-  const dvec3 a = p[(i + 1) % 3] - p[i];
-  const dvec3 b = p[(i + 2) % 3] - p[i];
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
-
-// For each welded vertex the corners that meet there, as numbers 3 * triangle + corner.
-class VertexFans {
- public:
-  VertexFans(const std::vector<Corners>& triangles, std::size_t vertices)
-      : begin_(vertices + 1, 0), corners_(triangles.size() * 3) {
-    for (const Corners& t : triangles) {
-      for (const uint32_t v : t.welded) ++begin_[v + 1];
-    }
-    for (std::size_t v = 0; v < vertices; ++v) begin_[v + 1] += begin_[v];
-    std::vector<uint32_t> end(begin_.begin(), begin_.end() - 1);
-    for (std::size_t c = 0; c < corners_.size(); ++c) {
-      corners_[end[triangles[c / 3].welded[c % 3]]++] = static_cast<uint32_t>(c);
-    }
-  }
-  [[nodiscard]] std::span<const uint32_t> around(uint32_t vertex) const {
-    return {corners_.data() + begin_[vertex], corners_.data() + begin_[vertex + 1]};
-  }
-
- private:
-  std::vector<uint32_t> begin_;
-  std::vector<uint32_t> corners_;
-};
-
-// Which of the faces around a vertex are connected by edges: sets of numbers from 0 on.
-class Connected {
- public:
-  explicit Connected(std::size_t count) : root_(count) {
-    for (std::size_t i = 0; i < count; ++i) root_[i] = static_cast<uint32_t>(i);
-  }
-  void join(uint32_t a, uint32_t b) { root_[set_of(b)] = set_of(a); }
-  uint32_t set_of(uint32_t i) {
-    while (root_[i] != i) i = root_[i] = root_[root_[i]];
-    return i;
-  }
-
- private:
-  std::vector<uint32_t> root_;
-};
-
-// Angle-weighted normals, one for each corner, as build_mesh() describes them.
-class MadeNormals {
- public:
-  // crease_cosine: of the angle; less than -1 without one.
-  MadeNormals(const std::vector<Corners>& triangles, const std::vector<dvec3>& positions,
-              double crease_cosine)
-      : triangles_(triangles),
-        positions_(positions),
-        crease_cosine_(crease_cosine),
-        normals_(3 * triangles.size()) {
-    faces_.reserve(triangles.size());
-    for (const Corners& t : triangles) {
-      faces_.push_back(glm::normalize(area_vector(points_of(t.welded, positions))));
-    }
-    const VertexFans fans(triangles, positions.size());
-    for (std::size_t v = 0; v < positions.size(); ++v) {
-      add(fans.around(static_cast<uint32_t>(v)));
-    }
-  }
-
-  [[nodiscard]] const dvec3& at(std::size_t triangle, std::size_t corner) const {
-    return normals_[3 * triangle + corner];
-  }
-
- private:
-  // around: the corners at a vertex.
-  void add(std::span<const uint32_t> around) {
-    Connected connected = connected_faces(around);
-    std::vector<dvec3> weighted;
-    std::vector<dvec3> sums(around.size(), dvec3(0.0));
-    for (uint32_t i = 0; i < around.size(); ++i) {
-      const uint32_t triangle = around[i] / 3;
-      weighted.push_back(
-          faces_[triangle] *
-          angle_at(points_of(triangles_[triangle].welded, positions_), around[i] % 3));
-      sums[connected.set_of(i)] += weighted[i];
-    }
-    for (uint32_t i = 0; i < around.size(); ++i) {
-      const dvec3& face = faces_[around[i] / 3];
-      dvec3 sum = sums[connected.set_of(i)];
-      if (crease_cosine_ > -1.0) {
-        sum = dvec3(0.0);
-        for (uint32_t k = 0; k < around.size(); ++k) {
-          const bool counts = k == i || (connected.set_of(k) == connected.set_of(i) &&
-                                         !(glm::dot(faces_[around[k] / 3], face) < crease_cosine_));
-          if (counts) sum += weighted[k];
-        }
-      }
-      // Where the faces cancel out, as on the two sides of a sheet, the corner's own face decides.
-      const double length = glm::length(sum);
-      normals_[around[i]] = length > 1e-9 ? sum / length : face;
-    }
-  }
-
-  Connected connected_faces(std::span<const uint32_t> around) const {
-    struct Edge {
-      uint32_t to;  // the other vertex
-      uint32_t face;
-    };
-    std::vector<Edge> edges;
-    for (uint32_t i = 0; i < around.size(); ++i) {
-      const auto& welded = triangles_[around[i] / 3].welded;
-      edges.push_back({welded[(around[i] + 1) % 3], i});
-      edges.push_back({welded[(around[i] + 2) % 3], i});
-    }
-    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-      return std::pair(a.to, a.face) < std::pair(b.to, b.face);
-    });
-    Connected connected(around.size());
-    for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-      while (end < edges.size() && edges[end].to == edges[begin].to) ++end;
-      if (end - begin != 2) continue;
-      const uint32_t a = edges[begin].face;
-      const uint32_t b = edges[begin + 1].face;
-      const uint32_t group = triangles_[around[a] / 3].smoothing_group;
-      if (group != 0 && group == triangles_[around[b] / 3].smoothing_group) connected.join(a, b);
-    }
-    return connected;
-  }
-
-  const std::vector<Corners>& triangles_;
-  const std::vector<dvec3>& positions_;
-  double crease_cosine_;
-  std::vector<dvec3> faces_;
-  std::vector<dvec3> normals_;
-};
-
-std::vector<Side> welded_sides(const std::vector<Corners>& triangles) {
+template <typename Triangles>
+std::vector<Side> sides_between(const Triangles& triangles) {
   return sides_of(triangles.size(), [&](uint32_t t) -> const std::array<uint32_t, 3>& {
-    return triangles[t].welded;
+    return triangles[t].vertex;
   });
 }
 
 // Counts the edges of the report.
-void count_edges(const std::vector<Corners>& triangles, const Mesh& mesh, MeshReport& report) {
+void count_edges(const Mesh& mesh, MeshReport& report) {
   // Files often hold normals in single precision: equal ones may differ in the last digit.
   const auto differ = [&](const Side& a, uint32_t end_of_a, const Side& b, uint32_t end_of_b) {
     const auto normal_at = [&](const Side& side, uint32_t end) {
@@ -284,7 +137,7 @@ void count_edges(const std::vector<Corners>& triangles, const Mesh& mesh, MeshRe
     };
     return glm::distance(normal_at(a, end_of_a), normal_at(b, end_of_b)) > 1e-6;
   };
-  for_edges(welded_sides(triangles), [&](std::span<const Side> sides) {
+  for_edges(sides_between(mesh.triangles), [&](std::span<const Side> sides) {
     if (sides.size() == 1) ++report.open_edges;
     if (sides.size() > 2) ++report.non_manifold_edges;
     if (sides.size() != 2) return;
@@ -297,20 +150,22 @@ void count_edges(const std::vector<Corners>& triangles, const Mesh& mesh, MeshRe
 }
 
 // Six times the volume under a triangle, seen from a point.
-double volume_under(const Corners& t, const std::vector<dvec3>& positions, const dvec3& from) {
-  const std::array<dvec3, 3> p = points_of(t.welded, positions);
+double volume_under(const ModelTriangle& t, const std::vector<dvec3>& positions,
+                    const dvec3& from) {
+  const std::array<dvec3, 3> p = points_of(t.vertex, positions);
   return glm::dot(glm::cross(p[0] - from, p[1] - from), p[2] - from);
 }
 
 // MeshOptions::repair. Returns how many triangles were turned around.
-std::size_t repair_winding(std::vector<Corners>& triangles, const std::vector<dvec3>& positions) {
+std::size_t repair_winding(std::vector<ModelTriangle>& triangles,
+                           const std::vector<dvec3>& positions) {
   struct Neighbour {
     uint32_t triangle;
     bool turned;  // has the opposite winding
   };
   std::vector<std::vector<Neighbour>> neighbours(triangles.size());
   std::vector<bool> is_open(triangles.size(), false);
-  for_edges(welded_sides(triangles), [&](std::span<const Side> sides) {
+  for_edges(sides_between(triangles), [&](std::span<const Side> sides) {
     if (sides.size() == 2) {
       const bool turned = sides[0].forward == sides[1].forward;
       neighbours[sides[0].triangle].push_back({sides[1].triangle, turned});
@@ -334,7 +189,7 @@ std::size_t repair_winding(std::vector<Corners>& triangles, const std::vector<dv
       const uint32_t t = part[i];
       closed = closed && !is_open[t];
       const double under =
-          volume_under(triangles[t], positions, positions[triangles[first].welded[0]]);
+          volume_under(triangles[t], positions, positions[triangles[first].vertex[0]]);
       volume += turned[t] ? -under : under;
       turned_in_part += turned[t] ? 1 : 0;
       for (const Neighbour& neighbour : neighbours[t]) {
@@ -348,105 +203,154 @@ std::size_t repair_winding(std::vector<Corners>& triangles, const std::vector<dv
     for (const uint32_t t : part) {
       if (turned[t] == inside_out) continue;
       ++count;
-      std::swap(triangles[t].welded[1], triangles[t].welded[2]);
-      std::swap(triangles[t].corner[1], triangles[t].corner[2]);
+      std::swap(triangles[t].vertex[1], triangles[t].vertex[2]);
+      std::swap(triangles[t].normal[1], triangles[t].normal[2]);
     }
   }
   return count;
 }
 
-}  // namespace
+// Frees a vector that is no longer needed: a model's are as large as the mesh.
+template <typename Item>
+void release(std::vector<Item>& items) {
+  items = std::vector<Item>();
+}
 
-BuiltMesh build_mesh(const PolygonModel& model, const std::string& name,
-                     const MeshOptions& options) {
-  BuiltMesh built;
-  Mesh& mesh = built.mesh;
-  MeshReport& report = built.report;
-  const std::vector<uint32_t> welded =
-      options.weld > 0.0 ? weld(model.positions, options.weld) : weld(model.positions);
-
-  std::vector<Corners> triangles;
+// The triangles of all polygons, but those without area, which `dropped` counts. welded: for each
+// position the one that stands for it.
+std::vector<ModelTriangle> triangles_of(const PolygonModel& model,
+                                        const std::vector<uint32_t>& welded, std::size_t& dropped) {
+  std::size_t count = 0;
+  for (const uint32_t size : model.sizes) count += size - 2;
+  std::vector<ModelTriangle> triangles;
+  triangles.reserve(count);
+  std::vector<uint32_t> places;
+  std::vector<dvec3> points;
   std::size_t first = 0;
   for (std::size_t face = 0; face < model.sizes.size(); ++face) {
     const std::span<const PolygonCorner> polygon(model.corners.data() + first, model.sizes[face]);
     first += model.sizes[face];
-    std::vector<uint32_t> places;
-    places.reserve(polygon.size());
+    places.clear();
     for (const PolygonCorner& corner : polygon) places.push_back(welded[corner.position]);
     const std::vector<uint32_t> outline = outline_of(places);
     if (outline.size() < 3) {
-      ++report.degenerate_dropped;
+      ++dropped;
       continue;
     }
-    std::vector<dvec3> points;
-    points.reserve(outline.size());
+    points.clear();
     for (const uint32_t i : outline) points.push_back(model.positions[places[i]]);
     const uint32_t group = model.smoothing_groups.empty() ? 1 : model.smoothing_groups[face];
     for (const auto& cut : triangulate(points)) {
-      Corners t{{}, {}, group};
+      ModelTriangle t{{}, {}, group};
       for (std::size_t i = 0; i < 3; ++i) {
-        t.corner[i] = polygon[outline[cut[i]]];
-        t.welded[i] = places[outline[cut[i]]];
+        t.normal[i] = polygon[outline[cut[i]]].normal;
+        t.vertex[i] = places[outline[cut[i]]];
       }
-      if (degenerate(points_of(t.welded, model.positions))) {
-        ++report.degenerate_dropped;
+      if (degenerate(points_of(t.vertex, model.positions))) {
+        ++dropped;
       } else {
         triangles.push_back(t);
       }
     }
   }
-  if (triangles.empty()) throw InputError(name + ": every face has zero area.");
-  if (options.repair) report.turned = repair_winding(triangles, model.positions);
+  return triangles;
+}
 
-  // The model's normals at unit length. One of length zero cannot be used.
-  std::vector<bool> usable(model.normals.size(), false);
-  for (std::size_t i = 0; i < model.normals.size(); ++i) {
+// The positions that triangles use, in the order in which they come; the triangles then name those.
+std::vector<dvec3> used_positions(const std::vector<dvec3>& positions,
+                                  std::vector<ModelTriangle>& triangles) {
+  std::vector<dvec3> used;
+  std::vector<uint32_t> number(positions.size(), kNone);
+  for (ModelTriangle& t : triangles) {
+    for (uint32_t& vertex : t.vertex) {
+      if (number[vertex] == kNone) {
+        number[vertex] = static_cast<uint32_t>(used.size());
+        used.push_back(positions[vertex]);
+      }
+      vertex = number[vertex];
+    }
+  }
+  return used;
+}
+
+// The model's normals at unit length, 0 for one of length zero, which cannot be used.
+std::vector<dvec3> unit_normals(std::vector<dvec3> normals) {
+  for (dvec3& normal : normals) {
     // Scaled by the largest component first, or the squares of tiny and huge ones would leave the
     // range of double precision.
-    const dvec3 size = glm::abs(model.normals[i]);
+    const dvec3 size = glm::abs(normal);
     const double scale = std::max({size.x, size.y, size.z});
-    usable[i] = scale > 0.0 && !options.crease_degrees;
-    mesh.normals.push_back(usable[i] ? glm::normalize(model.normals[i] / scale) : dvec3(0.0));
+    normal = scale > 0.0 ? glm::normalize(normal / scale) : dvec3(0.0);
   }
+  return normals;
+}
 
-  std::vector<uint32_t> number(model.positions.size(), kNone);
-  const double cosine =
-      options.crease_degrees ? std::cos(glm::radians(*options.crease_degrees)) : -2.0;
-  std::optional<MadeNormals> own;
-  std::size_t from_file = 0;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    MeshTriangle out{};
-    const std::array<dvec3, 3> points = points_of(triangles[t].welded, model.positions);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const uint32_t vertex = triangles[t].welded[i];
-      if (number[vertex] == kNone) {
-        number[vertex] = static_cast<uint32_t>(mesh.positions.size());
-        mesh.positions.push_back(points[i]);
-      }
-      out.vertex[i] = number[vertex];
-      const uint32_t normal = triangles[t].corner[i].normal;
-      if (normal != PolygonCorner::no_normal && usable[normal]) {
-        out.normal[i] = normal;
-        ++from_file;
-      } else {
-        if (!own) own.emplace(triangles, model.positions, cosine);
-        out.normal[i] = static_cast<uint32_t>(mesh.normals.size());
-        mesh.normals.push_back(own->at(t, i));
-      }
-      if (glm::dot(mesh.normals[out.normal[i]], area_vector(points)) <= 0.0) {
-        ++report.normals_behind;
-      }
-    }
-    mesh.triangles.push_back(out);
+// Gives corners whose normal is none or of length zero one of their own, and all of them with a
+// crease. Returns how many the model had.
+std::size_t complete_normals(std::vector<ModelTriangle>& triangles, Mesh& mesh,
+                             const std::optional<double>& crease_degrees) {
+  const auto has_normal = [&](uint32_t normal) {
+    return !crease_degrees && normal != PolygonCorner::no_normal &&
+           mesh.normals[normal] != dvec3(0.0);
+  };
+  std::size_t from_model = 0;
+  for (const ModelTriangle& t : triangles) {
+    from_model +=
+        static_cast<std::size_t>(std::count_if(t.normal.begin(), t.normal.end(), has_normal));
   }
+  if (from_model == 3 * triangles.size()) return from_model;
+  if (from_model == 0) release(mesh.normals);
+  const double cosine = crease_degrees ? std::cos(glm::radians(*crease_degrees)) : -2.0;
+  const MadeNormals made = make_normals(triangles, mesh.positions, cosine);
+  const auto first = static_cast<uint32_t>(mesh.normals.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      uint32_t& normal = triangles[t].normal[i];
+      if (from_model == 0 || !has_normal(normal)) normal = first + made.of_corner[3 * t + i];
+    }
+  }
+  mesh.normals.insert(mesh.normals.end(), made.normals.begin(), made.normals.end());
+  return from_model;
+}
+
+}  // namespace
+
+BuiltMesh build_mesh(PolygonModel model, const std::string& name, const MeshOptions& options) {
+  BuiltMesh built;
+  Mesh& mesh = built.mesh;
+  MeshReport& report = built.report;
+  std::vector<uint32_t> welded =
+      options.weld > 0.0 ? weld(model.positions, options.weld) : weld(model.positions);
+  std::vector<ModelTriangle> triangles = triangles_of(model, welded, report.degenerate_dropped);
+  if (triangles.empty()) throw InputError(name + ": every face has zero area.");
+  release(welded);
+  release(model.corners);
+  release(model.sizes);
+  release(model.smoothing_groups);
+  mesh.positions = used_positions(model.positions, triangles);
+  release(model.positions);
+  if (options.repair) report.turned = repair_winding(triangles, mesh.positions);
+  mesh.normals = unit_normals(std::move(model.normals));
+  const std::size_t from_file = complete_normals(triangles, mesh, options.crease_degrees);
+
+  mesh.triangles.reserve(triangles.size());
+  for (const ModelTriangle& t : triangles) {
+    mesh.triangles.push_back({t.vertex, t.normal});
+    const dvec3 face = area_vector(points_of(t.vertex, mesh.positions));
+    for (const uint32_t normal : t.normal) {
+      if (glm::dot(mesh.normals[normal], face) <= 0.0) ++report.normals_behind;
+    }
+  }
+  release(triangles);
+  malloc_trim(0);  // what is free between what is used: as much as the mesh
 
   report.triangles = mesh.triangles.size();
   report.vertices = mesh.positions.size();
   report.normals = from_file == 3 * mesh.triangles.size() ? NormalSource::file
                    : from_file == 0                       ? NormalSource::welded
                                                           : NormalSource::mixed;
-  report.notes = model.notes;
-  count_edges(triangles, mesh, report);
+  report.notes = std::move(model.notes);
+  count_edges(mesh, report);
   return built;
 }
 
@@ -476,7 +380,7 @@ BuiltMesh build_mesh(std::span<const dvec3> positions, std::span<const dvec3> no
            fmt::format("index {} names none of {} positions", index, positions.size()));
     polygons.corners.push_back({index, normals.empty() ? PolygonCorner::no_normal : index});
   }
-  return build_mesh(polygons, "mesh", options);
+  return build_mesh(std::move(polygons), "mesh", options);
 }
 
 std::string describe(const MeshReport& report) {

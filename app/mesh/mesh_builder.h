@@ -40,8 +40,7 @@ struct MeshOptions {
 // triangles of the same smoothing group: where two solids touch in a point each has its own
 // normals. Pure and deterministic. Throws InputError, with `name` in its message, if no triangle is
 // left.
-BuiltMesh build_mesh(const PolygonModel& model, const std::string& name,
-                     const MeshOptions& options = {});
+BuiltMesh build_mesh(PolygonModel model, const std::string& name, const MeshOptions& options = {});
 
 // The same from arrays, as other programs hold a model: triangle t has the positions
 // triangles[3 t] to triangles[3 t + 2], counter-clockwise seen from the front. normals: one for

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include "app/base/error.h"
 #include "app/mesh/assimp_file.h"
@@ -83,7 +84,7 @@ const char* format_name(ModelFormat format) {
 }
 
 PolygonModel read_model(const std::filesystem::path& path, ModelFormat* format) {
-  const std::string bytes = read_bytes(path);
+  std::string bytes = read_bytes(path);
   if (bytes.empty()) throw InputError(path.string() + ": is empty.");
   const ModelFormat found = format_of(bytes, path);
   if (format != nullptr) *format = found;
@@ -91,11 +92,11 @@ PolygonModel read_model(const std::filesystem::path& path, ModelFormat* format) 
     case ModelFormat::gltf:
       return parse_gltf(bytes, path);
     case ModelFormat::ply:
-      return parse_by_assimp(bytes, "ply", path.string());
+      return parse_by_assimp(std::move(bytes), "ply", path.string());
     case ModelFormat::stl:
-      return parse_by_assimp(bytes, "stl", path.string());
+      return parse_by_assimp(std::move(bytes), "stl", path.string());
     case ModelFormat::fbx:
-      return parse_by_assimp(bytes, "fbx", path.string());
+      return parse_by_assimp(std::move(bytes), "fbx", path.string());
     case ModelFormat::obj:
       break;
   }

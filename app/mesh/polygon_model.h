@@ -43,6 +43,13 @@ struct PolygonModel {
   std::vector<std::string> notes;
 };
 
+// Makes room for so many more items, if that at least doubles them: a large part of a model is then
+// not copied while it grows, and many small ones do not make room anew for each.
+template <typename Item>
+void make_room(std::size_t more, std::vector<Item>& items) {
+  if (more >= items.size()) items.reserve(items.size() + more);
+}
+
 // How normals change where positions change by m: the inverse transposed, times the determinant's
 // size, which is there for flat transformations too.
 glm::dmat3 matrix_for_normals(const glm::dmat3& m);

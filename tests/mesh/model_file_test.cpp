@@ -1,12 +1,15 @@
 // Models of every format, by content and by name.
 #include "app/mesh/model_file.h"
 
-#include <gtest/gtest.h>
-
 #include <assimp/scene.h>
+#include <gtest/gtest.h>
+#include <malloc.h>
+
 #include <assimp/Exporter.hpp>
 #include <assimp/Importer.hpp>
+#include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -14,7 +17,9 @@
 #include "app/base/error.h"
 #include "app/mesh/assimp_file.h"
 #include "app/mesh/mesh_builder.h"
+#include "app/tessellation/flat_mesh_file.h"
 #include "tests/support/file_content.h"
+#include "tests/support/scenes.h"
 #include "tests/support/temporary_folder.h"
 
 namespace trisect {
@@ -114,6 +119,54 @@ TEST(ModelFile, SaysWhyAFileCannotBeRead) {
     EXPECT_FALSE(message.ends_with("..")) << message;
   }
 }
+
+// AddressSanitizer keeps what is freed.
+#ifndef __SANITIZE_ADDRESS__
+
+// Kilobytes of a line of /proc/self/status.
+std::size_t status(const std::string& key) {
+  std::ifstream file("/proc/self/status");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with(key)) return std::stoul(line.substr(key.size() + 1));
+  }
+  return 0;
+}
+
+// The file itself, what the library makes of it, ours, and the mesh: none of them longer than it is
+// needed.
+TEST(ModelFile, ReadsInSixTimesItsSize) {
+  const test::TemporaryFolder folder;
+  const auto path = [&](MeshFormat format) {
+    return folder / (format == MeshFormat::ply   ? "a.ply"
+                     : format == MeshFormat::stl ? "a.stl"
+                                                 : "a.glb");
+  };
+  const std::vector<MeshFormat> formats{MeshFormat::ply, MeshFormat::stl, MeshFormat::glb};
+  {
+    const Mesh mesh = test::load_asset("sphere-20");
+    const FlatMesh flat = divided_evenly(mesh, bake(mesh, {}), 150);
+    for (const MeshFormat format : formats) {
+      AtomicFile file(path(format));
+      write_mesh(flat, format, file);
+      file.commit();
+    }
+  }
+  for (const MeshFormat format : formats) {
+    malloc_trim(0);
+    std::ofstream("/proc/self/clear_refs") << 5;  // begins the peak anew
+    const std::size_t before = status("VmRSS:");
+    const BuiltMesh built = build_mesh(read_model(path(format)), "a");
+    const double kilobytes = static_cast<double>(status("VmHWM:") - before);
+    const double file = static_cast<double>(std::filesystem::file_size(path(format))) / 1024.0;
+    EXPECT_EQ(built.mesh.triangles.size(), 450000U);
+    EXPECT_LT(kilobytes / file, 6.0) << path(format);
+    EXPECT_GT(kilobytes / file, 2.0) << "the peak was not measured";
+    std::printf("%s: %.1f times its %.1f MB\n", path(format).filename().c_str(), kilobytes / file,
+                file / 1000);
+  }
+}
+
+#endif
 
 }  // namespace
 }  // namespace trisect
