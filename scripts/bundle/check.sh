@@ -389,11 +389,14 @@ tests() {
 }
 filter="*"
 [ -z "$quick" ] || filter='Trace.*:Acceleration.*:Queue.*:GpuLayer.*:Assets/GoldenFrame.*'
-without=('GpuLayer.*Validation*' 'GpuAssisted.*' 'HardCases.*')
+of_opengl='*Crosscheck*:OpenglContender.*'
+without=('GpuLayer.*Validation*' 'GpuAssisted.*' 'HardCases.*' "$of_opengl")
 reasons=("those of the validation layer, which is not asked for" "the hard cases, which are a step of their own")
 if [[ $opengl == none:* ]]; then
-  without+=('*Crosscheck*' 'OpenglContender.*')
   reasons+=("those of OpenGL, of which there is none")
+else
+  # A driver may take minutes to compile its shaders.
+  reasons+=("those of OpenGL, which come last")
 fi
 tests "GPU tests" $longest gpu_tests "$filter-$(IFS=:; echo "${without[*]}")"
 {
@@ -502,6 +505,7 @@ fi
 
 [ -n "$quick" ] || tests "tests of the program" 60 program_tests 'Program.*'
 accurate sphere 300
+[ -n "$quick" ] || [[ $opengl == none:* ]] || tests "tests of OpenGL" $longest gpu_tests "$of_opengl"
 
 write_report
 if command -v tar >/dev/null && command -v gzip >/dev/null; then
