@@ -48,7 +48,9 @@ void add_render(CLI::App& app, RenderOptions& options, RenderText& text) {
   render->add_flag("--validation", options.validation,
                    "Run under the Vulkan validation layer, fail on any message");
   add_spp(*render, options.spp);
-  render->add_option("--runs", options.runs, "Frames to time after a warm-up, default 1")
+  render
+      ->add_option("--runs", options.runs,
+                   "Frames to time after a warm-up; without it one, which is not preceded by any")
       ->check(number_from_to(1, 1000000))
       ->type_name("N");
   render->add_flag(

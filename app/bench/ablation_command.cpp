@@ -9,10 +9,10 @@
 #include "app/bench/ablation_report.h"
 #include "app/bench/commands.h"
 #include "app/bench/gnuplot.h"
-#include "app/bench/provenance.h"
 #include "app/bench/report_files.h"
 #include "app/cli/cache_folder.h"
 #include "app/cli/json_text.h"
+#include "app/cli/provenance.h"
 #include "app/dispatch/pipeline_store.h"
 #include "app/mesh/mesh_builder.h"
 #include "app/mesh/model_file.h"
@@ -38,8 +38,7 @@ int bench_ablation(const AblationOptions& options) {
   }
   const std::string title = "What each step is worth";
   const std::vector<std::string> facts{
-      fmt::format("{}, {}", device.report().name, device.report().driver),
-      bench::program_and_date(),
+      fmt::format("{}, {}", device.report().name, device.report().driver), program_and_date(),
       fmt::format("{}x{} pixels, {} frames each after a warm-up, in turns", options.width,
                   options.height, options.runs)};
   std::vector<report::Block> blocks{

@@ -11,11 +11,11 @@
 #include "app/bench/gnuplot.h"
 #include "app/bench/pareto.h"
 #include "app/bench/pareto_report.h"
-#include "app/bench/provenance.h"
 #include "app/bench/report_files.h"
 #include "app/bench/stress_table.h"
 #include "app/cli/cache_folder.h"
 #include "app/cli/json_text.h"
+#include "app/cli/provenance.h"
 #include "app/crosscheck/frame_comparison.h"
 #include "app/dispatch/pipeline_store.h"
 #include "app/mesh/mesh_builder.h"
@@ -35,8 +35,7 @@ std::vector<std::string> provenance(const gpu::Device& device, const opengl::Con
   return {fmt::format("Vulkan: {}, {}", device.report().name, device.report().driver),
           context == nullptr ? "OpenGL: left out"
                              : fmt::format("OpenGL: {}, {}", context->device(), context->driver()),
-          fmt::format("CPU: {} threads", std::thread::hardware_concurrency()),
-          bench::program_and_date(),
+          fmt::format("CPU: {} threads", std::thread::hardware_concurrency()), program_and_date(),
           fmt::format("{}x{} pixels, {} frames each after a warm-up, in turns", options.width,
                       options.height, options.runs)};
 }

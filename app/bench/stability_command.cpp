@@ -7,11 +7,11 @@
 #include "app/base/error.h"
 #include "app/bench/commands.h"
 #include "app/bench/gnuplot.h"
-#include "app/bench/provenance.h"
 #include "app/bench/report_files.h"
 #include "app/bench/stability.h"
 #include "app/bench/stability_report.h"
 #include "app/cli/json_text.h"
+#include "app/cli/provenance.h"
 #include "app/report/document.h"
 
 namespace trisect {
@@ -23,7 +23,7 @@ int bench_stability(const StabilityOptions& options) {
   const bench::ReportFolder folder(options.output);
   const std::vector<StabilityAxis> axes = bench::measure_stability(options.rays);
   const std::string title = "Numerical stability";
-  const std::string program = bench::program_and_date();
+  const std::string program = program_and_date();
   std::vector<report::Block> blocks{
       report::Heading{1, title},
       report::Paragraph{fmt::format(

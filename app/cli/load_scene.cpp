@@ -83,7 +83,8 @@ LoadedScene load_scene(const RenderOptions& options) {
         "their plane\n",
         options.model, count);
   }
-  loaded.params = make_params(loaded.scene, settings_of(options, built.mesh, loaded.scene));
+  loaded.settings = settings_of(options, built.mesh, loaded.scene);
+  loaded.params = make_params(loaded.scene, loaded.settings);
   return loaded;
 }
 

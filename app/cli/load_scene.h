@@ -24,6 +24,7 @@ TraceSettings settings_of(const RenderOptions& options, const Mesh& mesh, const 
 
 struct LoadedScene {
   BakedScene scene;
+  TraceSettings settings;
   TraceParams params;
   double load_ms;
   double bake_ms;

@@ -41,8 +41,8 @@ struct RenderOptions {
   GlPath gl_path = GlPath::compute;
   std::string device;
   bool validation = false;
-  uint32_t runs = 1;
-  uint32_t spp = 1;  // rays per pixel, a square number
+  std::optional<uint32_t> runs;  // frames to time, after a warm-up; if not given one without it
+  uint32_t spp = 1;              // rays per pixel, a square number
   std::string stats;
 
   bool operator==(const RenderOptions&) const = default;

@@ -1,4 +1,4 @@
-#include "app/bench/provenance.h"
+#include "app/cli/provenance.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -8,7 +8,11 @@
 
 #include "commit.h"
 
-namespace trisect::bench {
+namespace trisect {
+
+std::string commit() {
+  return TRISECT_COMMIT;
+}
 
 std::string program_and_date() {
   const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
@@ -16,4 +20,4 @@ std::string program_and_date() {
                      TRISECT_COMMIT, TRISECT_COMPILER, fmt::gmtime(now));
 }
 
-}  // namespace trisect::bench
+}  // namespace trisect

@@ -54,12 +54,14 @@ int render(const RenderOptions& options) {
 
   const bool aovs = format == ImageFormat::exr || options.evals;
   TraceResult traced = trace_showing_progress(
-      {options.backend, options.gl_path, options.device, options.validation, options.runs, true,
-       cache_folder()},
+      {options.backend, options.gl_path, options.device, options.validation,
+       options.runs.value_or(1), options.runs.has_value(), cache_folder()},
       loaded.scene, loaded.params, {options.solver, aovs, options.evals, accel, options.shadows});
   traced.frame = averaged(std::move(traced.frame), samples_across(options.spp));
   RenderStatistics statistics;
   statistics.accel = accel;
+  statistics.camera = loaded.settings.camera;
+  statistics.light = loaded.settings.light;
   statistics.device = traced.device;
   statistics.driver = traced.driver;
   statistics.patches = loaded.scene.triangles.size();
@@ -72,7 +74,7 @@ int render(const RenderOptions& options) {
   statistics.bvh_ms = loaded.bvh_ms;
   statistics.upload_ms = traced.upload_ms;
 
-  write_image(traced.frame, format, options.evals, image);
+  write_image(traced.frame, format, options.evals, image, attributes_of(options, statistics));
   if (stats) stats->write(to_json(options, statistics));
   image.commit();
   if (stats) stats->commit();

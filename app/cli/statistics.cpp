@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/json_text.h"
+#include "app/cli/provenance.h"
 #include "app/dispatch/accel.h"
 
 namespace trisect {
@@ -45,6 +46,7 @@ std::string to_json(const RenderOptions& options, const RenderStatistics& statis
   nlohmann::ordered_json json;
   json["program"] = "trisect";
   json["version"] = TRISECT_VERSION;
+  json["commit"] = commit();
   json["device"] = statistics.device;
   json["driver"] = statistics.driver;
   json["backend"] = backend_name(options.backend);
@@ -66,9 +68,20 @@ std::string to_json(const RenderOptions& options, const RenderStatistics& statis
     if (statistics.counts->bytes_read > 0) json["bytes_read"] = statistics.counts->bytes_read;
     if (options.backend == Backend::vulkan) json["queued_rays"] = statistics.counts->queued_rays;
   }
+  const auto triple = [](const glm::dvec3& v) { return nlohmann::ordered_json{v.x, v.y, v.z}; };
+  json["camera"] = {{"eye", triple(statistics.camera.eye)},
+                    {"target", triple(statistics.camera.target)},
+                    {"up", triple(statistics.camera.up)},
+                    {"fov", statistics.camera.fov}};
+  json["light"] = triple(statistics.light);
+  json["crease"] = options.mesh.crease_degrees
+                       ? nlohmann::ordered_json(*options.mesh.crease_degrees)
+                       : nlohmann::ordered_json();
+  json["weld"] = options.mesh.weld;
+  json["repair"] = options.mesh.repair;
   json["shadows"] = options.shadows;
   json["spp"] = options.spp;
-  json["runs"] = options.runs;
+  json["runs"] = statistics.frames.size();
   json["gpu_ms"] = json_of(spread_over(statistics.frames, &FrameTime::gpu_ms));
   json["wall_ms"] = json_of(spread_over(statistics.frames, &FrameTime::wall_ms));
   json["load_ms"] = statistics.load_ms;
@@ -76,6 +89,33 @@ std::string to_json(const RenderOptions& options, const RenderStatistics& statis
   if (statistics.bvh_ms) json["bvh_ms"] = *statistics.bvh_ms;
   json["upload_ms"] = statistics.upload_ms;
   return json_text(json);
+}
+
+std::vector<ImageAttribute> attributes_of(const RenderOptions& options,
+                                          const RenderStatistics& statistics) {
+  std::vector<ImageAttribute> attributes{{"program", std::string("trisect ") + TRISECT_VERSION},
+                                         {"commit", commit()},
+                                         {"device", statistics.device},
+                                         {"driver", statistics.driver},
+                                         {"backend", std::string(backend_name(options.backend))},
+                                         {"model", options.model},
+                                         {"surface", std::string(surface_name(options.surface))},
+                                         {"alpha", options.alpha},
+                                         {"shell", std::string(shell_name(options.shell))},
+                                         {"solver", std::string(solver_name(options.solver))},
+                                         {"rank", static_cast<int>(options.rank)},
+                                         {"accel", std::string(accel_name(statistics.accel))},
+                                         {"eye", statistics.camera.eye},
+                                         {"target", statistics.camera.target},
+                                         {"up", statistics.camera.up},
+                                         {"fov", statistics.camera.fov},
+                                         {"light", statistics.light},
+                                         {"shadows", static_cast<int>(options.shadows)},
+                                         {"spp", static_cast<int>(options.spp)},
+                                         {"weld", options.mesh.weld},
+                                         {"repair", static_cast<int>(options.mesh.repair)}};
+  if (options.mesh.crease_degrees) attributes.push_back({"crease", *options.mesh.crease_degrees});
+  return attributes;
 }
 
 std::string to_text(const RenderOptions& options, const RenderStatistics& statistics) {
@@ -99,9 +139,10 @@ std::string to_text(const RenderOptions& options, const RenderStatistics& statis
       alpha, shell_name(options.shell), solver, accel_name(statistics.accel), options.width,
       options.height, statistics.hits, counts, statistics.load_ms, statistics.bake_ms,
       statistics.upload_ms, gpu.median, wall.median,
-      options.runs > 1 ? fmt::format(" (medians of {} runs, gpu {:.1f} to {:.1f} ms)", options.runs,
-                                     gpu.min, gpu.max)
-                       : "");
+      statistics.frames.size() > 1 ? fmt::format(" (medians of {} runs, gpu {:.1f} to {:.1f} ms)",
+                                                 statistics.frames.size(), gpu.min, gpu.max)
+      : options.runs               ? ""
+                                   : " (the first frame; --runs N times warm ones)");
 }
 
 }  // namespace trisect

@@ -1,11 +1,17 @@
 #include <ImfChannelList.h>
+#include <ImfDoubleAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfIntAttribute.h>
 #include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
+#include <ImfVecAttribute.h>
 #include <fmt/format.h>
 
 #include <cstddef>
 #include <exception>
+#include <string>
+#include <variant>
 #include <vector>
 
 #include "app/base/error.h"
@@ -37,10 +43,25 @@ class Channels {
   Imf::FrameBuffer slices_;
 };
 
+void insert(const ImageAttribute& attribute, Imf::Header& header) {
+  const auto with = [&](const Imf::Attribute& value) { header.insert(attribute.name, value); };
+  if (const auto* text = std::get_if<std::string>(&attribute.value)) {
+    with(Imf::StringAttribute(*text));
+  } else if (const auto* whole = std::get_if<int>(&attribute.value)) {
+    with(Imf::IntAttribute(*whole));
+  } else if (const auto* number = std::get_if<double>(&attribute.value)) {
+    with(Imf::DoubleAttribute(*number));
+  } else if (const auto* vector = std::get_if<glm::dvec3>(&attribute.value)) {
+    with(Imf::V3dAttribute(Imath::V3d(vector->x, vector->y, vector->z)));
+  }
+}
+
 }  // namespace
 
-void write_exr(const Frame& frame, bool evals, const AtomicFile& file) {
+void write_exr(const Frame& frame, bool evals, const AtomicFile& file,
+               const std::vector<ImageAttribute>& attributes) {
   Imf::Header header(static_cast<int>(frame.width), static_cast<int>(frame.height));
+  for (const ImageAttribute& attribute : attributes) insert(attribute, header);
   Channels channels(header, frame.width);
   constexpr std::size_t component = sizeof(float);
   std::vector<vec4> linear;

@@ -17,11 +17,12 @@ ImageFormat image_format(const std::filesystem::path& path) {
   throw UsageError(path.string() + ": an image's name must end in .png or .exr.");
 }
 
-void write_image(const Frame& frame, ImageFormat format, bool evals, const AtomicFile& file) {
+void write_image(const Frame& frame, ImageFormat format, bool evals, const AtomicFile& file,
+                 const std::vector<ImageAttribute>& attributes) {
   if (format == ImageFormat::png) {
     write_png(frame, file);
   } else {
-    write_exr(frame, evals, file);
+    write_exr(frame, evals, file, attributes);
   }
 }
 

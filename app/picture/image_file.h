@@ -2,6 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/glm.hpp>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "app/base/atomic_file.h"
 #include "app/frame/frame.h"
@@ -9,6 +13,12 @@
 namespace trisect {
 
 enum class ImageFormat { png, exr };
+
+// What a file says of its picture: an attribute of an EXR file's header.
+struct ImageAttribute {
+  std::string name;
+  std::variant<std::string, int, double, glm::dvec3> value;
+};
 
 // By the file name's ending, .png or .exr in any letter case. Throws UsageError for any other.
 ImageFormat image_format(const std::filesystem::path& path);
@@ -19,10 +29,13 @@ void write_png(const Frame& frame, const AtomicFile& file);
 // Writes R G B A (linear light, A = 1 where hit) and, if the frame has AOVs, Z, N.X N.Y N.Z, G.X
 // G.Y G.Z, patch, U, V, in single precision, patch as unsigned integers; with evals also evals,
 // unsigned. README says what each channel holds. Throws InputError, naming the file.
-void write_exr(const Frame& frame, bool evals, const AtomicFile& file);
+void write_exr(const Frame& frame, bool evals, const AtomicFile& file,
+               const std::vector<ImageAttribute>& attributes = {});
 
-// Writes in that format. evals: also an EXR channel with the evaluations of each pixel.
-void write_image(const Frame& frame, ImageFormat format, bool evals, const AtomicFile& file);
+// Writes in that format. evals: also an EXR channel with the evaluations of each pixel. PNG has no
+// attributes.
+void write_image(const Frame& frame, ImageFormat format, bool evals, const AtomicFile& file,
+                 const std::vector<ImageAttribute>& attributes = {});
 
 // The same, by the file name's ending: the file appears whole or not at all. Throws UsageError or
 // InputError.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "app/frame/srgb.h"
 #include "app/picture/image_file.h"
 #include "tests/support/exr_reader.h"
+#include "tests/support/file_content.h"
 #include "tests/support/program.h"
 
 namespace trisect {
@@ -48,6 +50,37 @@ TEST_F(Program, WritesStatistics) {
   const Frame frame = test::read_exr(folder_ / "a.exr");
   EXPECT_EQ(json["hits"], frame.hits());
   EXPECT_GT(frame.hits(), 100U);
+}
+
+// What the header of an EXR file says is enough to make the file again, byte for byte.
+TEST_F(Program, SaysInTheHeaderWhatMakesThePicture) {
+  const test::ProgramRun first = render({"--surface", "sphere", "--fov", "33.3", "--crease", "70",
+                                         "--shadows", "--light", "0.1,0.7,0.3", "--spp", "4"},
+                                        "a.exr");
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  std::map<std::string, std::string> said = test::exr_attributes(folder_ / "a.exr");
+  EXPECT_EQ(said["program"], "trisect " TRISECT_VERSION);
+  EXPECT_NE(said["commit"], "");
+  EXPECT_NE(said["driver"], "");
+  std::vector<std::string> again{"render",          said["model"], "-o",
+                                 folder_ / "b.exr", "--size",      "32x24"};
+  for (const std::string option :
+       {"surface", "shell", "solver", "rank", "accel", "alpha", "eye", "target", "up", "fov",
+        "light", "spp", "crease", "weld", "backend"}) {
+    ASSERT_EQ(said.count(option), 1U) << option;
+    again.push_back("--" + option + "=" + said[option]);
+  }
+  if (said["shadows"] == "1") again.emplace_back("--shadows");
+  if (said["repair"] == "1") again.emplace_back("--repair");
+  const test::ProgramRun second = run_trisect(again);
+  ASSERT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_EQ(test::content_of(folder_ / "a.exr"), test::content_of(folder_ / "b.exr"));
+}
+
+// A picture alone is traced once; frames that are timed have one before them.
+TEST_F(Program, WarmsUpOnlyWhereItTimes) {
+  EXPECT_NE(render().out.find("the first frame"), std::string::npos);
+  EXPECT_EQ(render({"--runs", "1"}).out.find("the first frame"), std::string::npos);
 }
 
 TEST_F(Program, PlacesTheCamera) {

@@ -1,9 +1,14 @@
 #include "tests/support/exr_reader.h"
 
 #include <ImfChannelList.h>
+#include <ImfDoubleAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
+#include <ImfIntAttribute.h>
+#include <ImfStringAttribute.h>
+#include <ImfVecAttribute.h>
+#include <fmt/format.h>
 
 #include <cstddef>
 
@@ -51,6 +56,25 @@ std::map<std::string, std::string> exr_channels(const std::filesystem::path& pat
     names[channel.name()] = type == Imf::FLOAT ? "float" : type == Imf::UINT ? "uint" : "half";
   }
   return names;
+}
+
+std::map<std::string, std::string> exr_attributes(const std::filesystem::path& path) {
+  const Imf::InputFile file(path.c_str());
+  std::map<std::string, std::string> texts;
+  for (auto at = file.header().begin(); at != file.header().end(); ++at) {
+    const Imf::Attribute& attribute = at.attribute();
+    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute)) {
+      texts[at.name()] = text->value();
+    } else if (const auto* whole = dynamic_cast<const Imf::IntAttribute*>(&attribute)) {
+      texts[at.name()] = fmt::format("{}", whole->value());
+    } else if (const auto* number = dynamic_cast<const Imf::DoubleAttribute*>(&attribute)) {
+      texts[at.name()] = fmt::format("{}", number->value());
+    } else if (const auto* triple = dynamic_cast<const Imf::V3dAttribute*>(&attribute)) {
+      const Imath::V3d& v = triple->value();
+      texts[at.name()] = fmt::format("{},{},{}", v.x, v.y, v.z);
+    }
+  }
+  return texts;
 }
 
 }  // namespace trisect::test
