@@ -17,6 +17,7 @@
 #include "app/bench/sample_check.h"
 #include "app/bench/speed_report.h"
 #include "app/cli/cache_folder.h"
+#include "app/cli/distinct_files.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/json_text.h"
 #include "app/cli/progress_line.h"
@@ -194,6 +195,7 @@ std::vector<bench::SpeedRow> rows_of(const std::string& model, uint surface, con
 }  // namespace
 
 int bench_speed(const BenchOptions& options) {
+  expect_distinct(options.models, {options.json});
   const gpu::Instance instance(false);
   const gpu::Device device(instance, options.device);
   const PipelineStore store(device, cache_folder());

@@ -12,6 +12,7 @@
 #include "app/cli/accuracy_report.h"
 #include "app/cli/cache_folder.h"
 #include "app/cli/commands.h"
+#include "app/cli/distinct_files.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/json_text.h"
 #include "app/cli/progress_line.h"
@@ -101,6 +102,7 @@ std::vector<AccuracyRow> measure_model(const gpu::Device& device, const Accuracy
 }  // namespace
 
 int accuracy(const AccuracyOptions& options) {
+  expect_distinct(options.models, {options.json});
   const gpu::Instance instance(false);
   const gpu::Device device(instance, options.device);
   const PipelineStore store(device, cache_folder());

@@ -8,6 +8,7 @@
 #include "app/cli/cache_folder.h"
 #include "app/cli/commands.h"
 #include "app/cli/comparison_report.h"
+#include "app/cli/distinct_files.h"
 #include "app/cli/load_scene.h"
 #include "app/dispatch/accel.h"
 #include "app/dispatch/pipeline_store.h"
@@ -29,6 +30,7 @@ Tolerance tolerance_between(Backend a, Backend b, GlPath gl_path) {
 
 int crosscheck(const CrosscheckOptions& options) {
   const RenderOptions& render = options.render;
+  expect_distinct({render.model}, {options.json, options.diff});
   ComparisonFiles files(options.json, options.diff);
   LoadedScene loaded = load_scene(render);
   std::vector<TraceResult> results;

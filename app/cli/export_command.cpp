@@ -10,6 +10,7 @@
 #include "app/base/atomic_file.h"
 #include "app/base/error.h"
 #include "app/cli/commands.h"
+#include "app/cli/distinct_files.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/json_text.h"
 #include "app/cli/progress_line.h"
@@ -49,6 +50,7 @@ int export_mesh(const ExportOptions& options) {
     throw UsageError(
         fmt::format("-o {}: the name must end in .obj, .ply, .stl or .glb.", options.output));
   }
+  expect_distinct({options.model}, {options.output, options.json});
   AtomicFile file(options.output);
   std::optional<AtomicFile> json_file;
   if (!options.json.empty()) json_file.emplace(options.json);

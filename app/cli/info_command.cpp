@@ -12,6 +12,7 @@
 #include "app/base/atomic_file.h"
 #include "app/base/error.h"
 #include "app/cli/commands.h"
+#include "app/cli/distinct_files.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/json_text.h"
 #include "app/cli/model_facts.h"
@@ -253,6 +254,7 @@ void print(const InfoOptions& options, const Model& model) {
 }  // namespace
 
 int info(const InfoOptions& options) {
+  expect_distinct({options.model}, {options.json});
   std::optional<AtomicFile> file;
   if (!options.json.empty()) file.emplace(options.json);
   const Model model = examine(options);

@@ -1,16 +1,15 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <filesystem>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 
 #include "app/base/atomic_file.h"
 #include "app/base/error.h"
 #include "app/cli/cache_folder.h"
 #include "app/cli/commands.h"
+#include "app/cli/distinct_files.h"
 #include "app/cli/load_scene.h"
 #include "app/cli/statistics.h"
 #include "app/dispatch/accel.h"
@@ -20,30 +19,9 @@
 #include "app/trace/trace_scene.h"
 
 namespace trisect {
-namespace {
-
-// Throws UsageError if two of the files are the same, or if an output is the model.
-void expect_distinct(const RenderOptions& options) {
-  const auto expect = [](const std::string& a, const std::string& b) {
-    std::error_code error;
-    const auto resolved = [&](const std::string& path) {
-      return std::filesystem::weakly_canonical(path, error);
-    };
-    if (resolved(a) == resolved(b)) {
-      throw UsageError(fmt::format("{} and {} are the same file.", a, b));
-    }
-  };
-  expect(options.output, options.model);
-  if (options.stats.empty()) return;
-  expect(options.stats, options.model);
-  expect(options.stats, options.output);
-}
-
-}  // namespace
-
 int render(const RenderOptions& options) {
   const ImageFormat format = image_format(options.output);
-  expect_distinct(options);
+  expect_distinct({options.model}, {options.output, options.stats});
   LoadedScene loaded = load_scene(options);
   const Accel accel = accel_for(options, options.backend, loaded.scene);
   if (needs_bvh(accel, options.shadows)) add_bvh(loaded);

@@ -249,6 +249,33 @@ TEST_F(Program, RefusesToOverwriteItsModel) {
             std::filesystem::file_size(test::asset_path("cube")));
 }
 
+TEST_F(Program, WritesNothingOverWhatItReads) {
+  const std::string model = folder_ / "model.ply";
+  ASSERT_EQ(
+      run_trisect({"export", test::asset_path("cube"), "--subdivide", "1", "-o", model}).exit_code,
+      0);
+  const std::string before = test::content_of(model);
+  const std::string picture = folder_ / "a.png";
+  ASSERT_EQ(render({"--size", "8x8"}).exit_code, 0);
+  const std::string pixels = test::content_of(picture);
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"export", model, "--subdivide", "2", "-o", folder_ / "." / "model.ply"},
+           {"export", model, "--subdivide", "2", "-o", folder_ / "b.ply", "--json",
+            folder_ / "b.ply"},
+           {"info", model, "--json", model},
+           {"accuracy", model, "--json", model},
+           {"crosscheck", model, "--json", model},
+           {"compare", picture, picture, "--diff", picture},
+           {"bench", "speed", model, "--json", model}}) {
+    const test::ProgramRun run = run_trisect(arguments);
+    EXPECT_EQ(run.exit_code, 2) << run.err;
+    EXPECT_NE(run.err.find("are the same file."), std::string::npos) << run.err;
+  }
+  EXPECT_EQ(test::content_of(model), before);
+  EXPECT_EQ(test::content_of(picture), pixels);
+  EXPECT_EQ(files(), 2U);
+}
+
 TEST_F(Program, LastOfARepeatedOptionCounts) {
   ASSERT_EQ(render({"--size", "16x8"}, "a.exr").exit_code, 0);
   EXPECT_EQ(test::read_exr(folder_ / "a.exr").width, 16U);
