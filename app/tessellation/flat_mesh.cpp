@@ -54,7 +54,13 @@ class PieceBounds {
     double off = 0.0;
     for (const PieceCorner& corner : piece.corner) {
       const dvec3 own = vertices_.surface_point(piece.patch, corner.weights);
-      off = std::max(off, glm::distance(own, vertices_.position(corner.vertex)));
+      const double away = glm::distance(own, vertices_.position(corner.vertex));
+      // Written so that a NaN is no distance.
+      if (!(away >= off)) {
+        if (!(away >= 0.0)) return kInfinity;
+        continue;
+      }
+      off = away;
     }
     return chord_bound(scene_.choice, patch_of(piece), weights_of(piece)) + off;
   }

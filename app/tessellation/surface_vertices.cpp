@@ -1,6 +1,7 @@
 #include "app/tessellation/surface_vertices.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "app/surface/to_double.h"
@@ -87,6 +88,10 @@ uint32_t SurfaceVertices::on_surface(uint32_t patch, const dvec3& weights, uint3
   const double length = glm::length(normal);
   normal = length > 0.0 ? normal / length : in_double::geometric_normal(shape_, tri, weights);
   dvec3 point = scene_.origin + in_double::surface_point(shape_, tri, weights);
+  // Where the shell's directions cancel out there is no surface; the bound says that it is unknown.
+  const auto is_finite = [](const dvec3& v) { return std::isfinite(glm::dot(v, v)); };
+  if (!is_finite(normal)) normal = dvec3(tri.TriNormal);
+  if (!is_finite(point)) point = scene_.origin + in_double::base_point(tri, weights);
   // Where the two sides of a hard edge have the same curve, roundings must not part them.
   if (const uint32_t other = first_of_place_[place]; other != kNoVertex) {
     const double rounding = 1e-14 * (scene_.extent + glm::length(scene_.origin));

@@ -245,6 +245,20 @@ TEST(FlatMesh, DividesPatchesWithTheSameCornersAlike) {
   EXPECT_EQ(count_open_edges(*flat), 0U);
 }
 
+// Opposite normals cancel out on the way between them: there is no surface there, and no NaN.
+TEST(FlatMesh, WritesNoNaN) {
+  const Mesh mesh = test::one_triangle({dvec3(0, 0, 0), dvec3(1, 0, 0), dvec3(0, 1, 0)},
+                                       {dvec3(0, 0, 1), dvec3(0, 0, -1), dvec3(0, 1, 0)});
+  const BakedScene scene = bake(mesh, {SURFACE_SPHERE, 0.0, SHELL_NORMAL});
+  const FlatMesh flat = divided_evenly(mesh, scene, 2);
+  for (std::size_t v = 0; v < flat.positions.size(); ++v) {
+    EXPECT_TRUE(std::isfinite(glm::dot(flat.positions[v], flat.positions[v])));
+    EXPECT_TRUE(std::isfinite(glm::dot(flat.normals[v], flat.normals[v])));
+  }
+  EXPECT_TRUE(std::isinf(flat.bound));
+  EXPECT_EQ(count_open_edges(flat), 6U);
+}
+
 // A hard edge that stays straight: its sides have vertices of their own, at the same places.
 TEST(FlatMesh, KeepsHardEdgesClosedThatStayStraight) {
   const Model smooth("sphere-20", SURFACE_PHONG);
