@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/base/rounding.h"
 #include "app/surface/surface_double.h"
@@ -145,10 +146,13 @@ bool is_smooth_root(const Patch& patch, std::size_t i, const HeightRange& h) {
 
 // Of a w0 w1 + b w1 w2 + c w2 w0 over a triangle; a, b and c are not negative.
 double largest_of_products(double a, double b, double c) {
+  // The largest last: then nothing cancels below.
+  if (a > c) std::swap(a, c);
+  if (b > c) std::swap(b, c);
   const double on_edge = 0.25 * std::max({a, b, c});
   // Where the maximum is inside, the three derivatives are equal there.
   if (!(a + b > c && b + c > a && c + a > b)) return on_edge;
-  return std::max(on_edge, a * b * c / (2.0 * (a * b + b * c + c * a) - a * a - b * b - c * c));
+  return std::max(on_edge, a * b * c / (4.0 * a * b - ((a + (b - c)) * (a + (b - c)))));
 }
 
 // The three bounds of |sigma - linear| (sphere_chord_bound).

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "app/base/rounding.h"
 #include "app/surface/control_net.h"
@@ -16,9 +17,12 @@ using glm::dvec3;
 // Of a w0 w1 + b w1 w2 + c w2 w0 over a triangle; a, b and c are not negative. Where the maximum is
 // inside, the gradient's three components there are equal.
 double largest_of_edges(double a, double b, double c) {
+  // The largest last: then nothing cancels below.
+  if (a > c) std::swap(a, c);
+  if (b > c) std::swap(b, c);
   const double on_edge = std::max({a, b, c}) * 0.25;
   if (!(a + b > c && b + c > a && c + a > b)) return on_edge;
-  return std::max(on_edge, a * b * c / (2.0 * (a * b + b * c + c * a) - a * a - b * b - c * c));
+  return std::max(on_edge, a * b * c / (4.0 * a * b - (a + (b - c)) * (a + (b - c))));
 }
 
 double cubic_chord_bound(const Patch& patch, const CornerWeights& piece, double alpha) {
