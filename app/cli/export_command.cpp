@@ -76,8 +76,7 @@ int export_mesh(const ExportOptions& options) {
   if (!reached) {
     fmt::print(
         "{}: {:g} is not proven for {} of the triangles, where the surface is too steep or its "
-        "edges "
-        "do not meet\n",
+        "edges do not meet\n",
         options.output, *options.error, flat.beyond_error);
   }
   if (json_file) {

@@ -102,7 +102,6 @@ double read_as(const char* at) {
   return static_cast<double>(value);
 }
 
-// A component as a number; normalised ones are from -1 or 0 to 1.
 // Table::step of components.
 double step_of(uint32_t type, bool normalised) {
   if (type == kFloat) return 0.0;
@@ -119,6 +118,7 @@ double step_of(uint32_t type, bool normalised) {
   }
 }
 
+// A component as a number; normalised ones are from -1 or 0 to 1.
 double component_at(const char* at, uint32_t type, bool normalised) {
   switch (type) {
     case kByte:

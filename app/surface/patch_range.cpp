@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "app/base/rounding.h"
 #include "app/surface/control_net.h"
@@ -210,6 +211,16 @@ Enclosure enclose(const SurfaceChoice& choice, const Patch& patch,
     e.radius = kInfinity;
   }
   return e;
+}
+
+double largest_of_products(double a, double b, double c) {
+  // The largest last: then nothing cancels below.
+  if (a > c) std::swap(a, c);
+  if (b > c) std::swap(b, c);
+  const double on_edge = 0.25 * c;
+  // Where the maximum is inside, the gradient's three components there are equal.
+  if (!(a + b > c)) return on_edge;
+  return std::max(on_edge, a * b * c / (4.0 * a * b - (a + (b - c)) * (a + (b - c))));
 }
 
 Interval extent_along(const Enclosure& enclosure, const dvec3& origin, const dvec3& axis) {

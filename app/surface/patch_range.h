@@ -54,6 +54,10 @@ inline double longest_of(const std::array<glm::dvec3, 3>& vectors) {
   return std::max({glm::length(vectors[0]), glm::length(vectors[1]), glm::length(vectors[2])});
 }
 
+// The largest a w0 w1 + b w1 w2 + c w2 w0 over a triangle, whose corners have the weights 1. a, b
+// and c are not negative.
+double largest_of_products(double a, double b, double c);
+
 // At the corners of a sub-triangle: the points of the base triangle and the shell's directions.
 // Both are linear in between.
 struct PatchCorners {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "app/base/rounding.h"
 #include "app/surface/surface_double.h"
@@ -142,17 +141,6 @@ HeightDerivatives height_derivatives(const HeightRange& h, const dvec3& e, const
 // Whether s_i is the root all over a sub-triangle of the patch, its vertex included.
 bool is_smooth_root(const Patch& patch, std::size_t i, const HeightRange& h) {
   return has_root(h) && h.discriminant.lo > 0.0 && h.root.lo > 0.0 && is_within_limit(patch, i, h);
-}
-
-// Of a w0 w1 + b w1 w2 + c w2 w0 over a triangle; a, b and c are not negative.
-double largest_of_products(double a, double b, double c) {
-  // The largest last: then nothing cancels below.
-  if (a > c) std::swap(a, c);
-  if (b > c) std::swap(b, c);
-  const double on_edge = 0.25 * std::max({a, b, c});
-  // Where the maximum is inside, the three derivatives are equal there.
-  if (!(a + b > c && b + c > a && c + a > b)) return on_edge;
-  return std::max(on_edge, a * b * c / (4.0 * a * b - ((a + (b - c)) * (a + (b - c)))));
 }
 
 // The three bounds of |sigma - linear| (sphere_chord_bound).

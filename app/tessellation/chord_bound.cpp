@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 #include "app/base/rounding.h"
 #include "app/surface/control_net.h"
@@ -13,17 +12,6 @@ namespace trisect {
 namespace {
 
 using glm::dvec3;
-
-// Of a w0 w1 + b w1 w2 + c w2 w0 over a triangle; a, b and c are not negative. Where the maximum is
-// inside, the gradient's three components there are equal.
-double largest_of_edges(double a, double b, double c) {
-  // The largest last: then nothing cancels below.
-  if (a > c) std::swap(a, c);
-  if (b > c) std::swap(b, c);
-  const double on_edge = std::max({a, b, c}) * 0.25;
-  if (!(a + b > c && b + c > a && c + a > b)) return on_edge;
-  return std::max(on_edge, a * b * c / (4.0 * a * b - (a + (b - c)) * (a + (b - c))));
-}
 
 double cubic_chord_bound(const Patch& patch, const CornerWeights& piece, double alpha) {
   const DisplacementQuadratic q = phong_quadratic(patch, alpha);
@@ -47,8 +35,8 @@ double cubic_chord_bound(const Patch& patch, const CornerWeights& piece, double 
   // w_i w_j (w_i + w_j) = w_i w_j - w_0 w_1 w_2, and w_0 w_1 w_2 <= 1/27.
   const double inside = std::max(0.0, 2.0 * middle - (edge[0] + edge[1] + edge[2]));
   const double size = std::abs(q.edge.x) + std::abs(q.edge.y) + std::abs(q.edge.z);
-  return largest_of_edges(edge[0], edge[1], edge[2]) * (1.0 + gamma_double(100)) + inside / 27.0 +
-         size * longest_of(D) * gamma_double(100);
+  return largest_of_products(edge[0], edge[1], edge[2]) * (1.0 + gamma_double(100)) +
+         inside / 27.0 + size * longest_of(D) * gamma_double(100);
 }
 
 }  // namespace

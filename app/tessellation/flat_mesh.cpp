@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "app/base/error.h"
+#include "app/base/max_propagating_nan.h"
 #include "app/base/parallel_rows.h"
 #include "app/mesh/edges.h"
 #include "app/surface/patch_range.h"
@@ -54,14 +55,9 @@ class PieceBounds {
     double off = 0.0;
     for (const PieceCorner& corner : piece.corner) {
       const dvec3 own = vertices_.surface_point(piece.patch, corner.weights);
-      const double away = glm::distance(own, vertices_.position(corner.vertex));
-      // Written so that a NaN is no distance.
-      if (!(away >= off)) {
-        if (!(away >= 0.0)) return kInfinity;
-        continue;
-      }
-      off = away;
+      max_propagating_nan(off, glm::distance(own, vertices_.position(corner.vertex)));
     }
+    if (std::isnan(off)) return kInfinity;
     return chord_bound(scene_.choice, patch_of(piece), weights_of(piece)) + off;
   }
 
