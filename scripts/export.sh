@@ -21,13 +21,19 @@ row() {
   figures "$1" --surface "$2" --error "$error"
   local fitted
   fitted=$(jq -r '"\(.triangles) | \(.vertices) | \(if .bound > .error then "\(.bound / .radius * 1e5 | round / 1e5) (\(.beyond_error) triangles)" else "as asked" end)"' "$work/a.json")
-  # The least even division with the same bound.
-  local n=1 even="" most=40
+  # The least even division with the same bound, which falls as they grow: between one that has it not and one that has.
+  local most=40 even="" low=0 high n
   [ "$2" = sphere ] || most=100
-  while [ -z "$even" ] && [ $n -le $most ]; do
+  high=$((most + 1))
+  while [ $((high - low)) -gt 1 ]; do
+    n=$(((low + high) / 2))
     figures "$1" --surface "$2" --subdivide $n
-    even=$(jq -r --argjson error "$error" 'select(.bound <= $error) | .triangles' "$work/a.json")
-    n=$((n + (n + 9) / 10))
+    if [ "$(jq --argjson error "$error" '.bound <= $error' "$work/a.json")" = true ]; then
+      high=$n
+      even=$(jq -r .triangles "$work/a.json")
+    else
+      low=$n
+    fi
   done
   echo "| $1 | $2 | $3 | $fitted | ${even:-more than $most x $most each} |"
 }
@@ -50,10 +56,10 @@ convert "$work/1.png" "$work/2.png" "$work/0.png" +append -quality 90 "$work/exp
 
 Written by \`scripts/export.sh\`. \`trisect export MODEL --error EPS -o FILE\` divides edges, each for both of its triangles, until no
 point of the surface is farther than EPS from the triangles, nor they from it. The bound is proven for every triangle: for
-phong by the Bezier points of the cubic, for sphere by ranges of the second derivatives (\`chord_bound\` in
-\`app/tessellation/chord_bound.h\`, \`sphere_chord_bound\` in \`app/surface/sphere_range.h\`); roundings are in it, those of the
-file's numbers too. Vertices are shared, so a closed model stays closed; where a model's own normals split along an edge the
-two sides part, as they do in a picture. \`--subdivide N\` makes N x N triangles of each, and says how far off they are.
+phong by the Bezier points of the cubic, for sphere by the best of three bounds, on small triangles that by ranges of the second
+derivatives (\`chord_bound\` in \`app/tessellation/chord_bound.h\`, \`sphere_chord_bound\` in \`app/surface/sphere_range.h\`);
+roundings are in it, those of the file's numbers too. Vertices are shared, so a closed model stays closed, also where normals
+differ in the last digits; where they split along an edge the two sides part, as they do in a picture. \`--subdivide N\` makes N x N triangles of each, and says how far off they are.
 
 ![The model, what is exported for an error of 0.01, and what trisect traces](export.png)
 
@@ -61,7 +67,7 @@ f3d $(dpkg-query -W -f '${Version}' f3d) shows the teapot's 304 triangles and $(
     sed -nE 's/.*: ([0-9]+) triangles, [0-9]+ vertices, .*open edges; .*/\1/p') exported ones; on the right trisect's own picture.
 
 Errors over the model's radius, half the diagonal of its bounding box. The last column: the fewest triangles of an even
-division with that bound.
+division that has that bound as well.
 
 | model | surface | error | triangles | vertices | bound | evenly |
 |---|---|---|---|---|---|---|

@@ -22,9 +22,10 @@
 namespace trisect {
 namespace {
 
-// What the file's numbers leave of the error that is asked for.
+// What the file's numbers leave of the error that is asked for: with them added again it is no more
+// than that.
 double error_for_surface(const ExportOptions& options, double rounding) {
-  if (*options.error > rounding) return *options.error - rounding;
+  if (*options.error > rounding) return (*options.error - rounding) * (1.0 - 1e-15);
   throw UsageError(fmt::format(
       "--error {:g}: the numbers in {} alone move vertices by up to {:.2g}: take a larger one{}.",
       *options.error, options.output, rounding,
@@ -34,10 +35,10 @@ double error_for_surface(const ExportOptions& options, double rounding) {
 FlatMesh flattened(const ExportOptions& options, const Mesh& mesh, const BakedScene& scene,
                    double rounding) {
   const BusyLine line("dividing " + options.model);
-  FlatMesh flat = options.subdivide
-                      ? divided_evenly(mesh, scene, *options.subdivide)
-                      : finished(divided_to(mesh, scene, error_for_surface(options, rounding),
-                                            not_interrupted));
+  FlatMesh flat =
+      finished(options.subdivide ? divided_evenly(mesh, scene, *options.subdivide, not_interrupted)
+                                 : divided_to(mesh, scene, error_for_surface(options, rounding),
+                                              not_interrupted));
   flat.bound += rounding;
   return flat;
 }
@@ -72,12 +73,15 @@ int export_mesh(const ExportOptions& options) {
       options.output, flat.triangles.size(), flat.positions.size(),
       open_edges == 0 ? "closed" : fmt::format("{} open edges", open_edges), flat.bound,
       flat.bound / scene.extent);
-  const bool reached = !options.error || flat.bound <= *options.error;
+  const bool reached = flat.beyond_error == 0;
   if (!reached) {
-    fmt::print(
-        "{}: {:g} is not proven for {} of the triangles, where the surface is too steep or its "
-        "edges do not meet\n",
-        options.output, *options.error, flat.beyond_error);
+    fmt::print("{}: {:g} is not proven for {} of the triangles, {}\n", options.output,
+               *options.error, flat.beyond_error,
+               flat.off > 0.5 * *options.error
+                   ? fmt::format("whose vertices are up to {:.2g} off the surface: it is baked in "
+                                 "single precision, and neighbours' normals may not quite agree",
+                                 flat.off)
+                   : "where the surface is too steep");
   }
   if (json_file) {
     nlohmann::ordered_json json{{"program", "trisect"},
@@ -90,6 +94,7 @@ int export_mesh(const ExportOptions& options) {
                                 {"vertices", flat.positions.size()},
                                 {"open_edges", open_edges},
                                 {"bound", flat.bound},
+                                {"off", flat.off},
                                 {"beyond_error", flat.beyond_error},
                                 {"error", options.error ? nlohmann::ordered_json(*options.error)
                                                         : nlohmann::ordered_json()},

@@ -22,6 +22,10 @@ struct Mesh {
   std::vector<MeshTriangle> triangles;
 };
 
+// Normals that are no farther apart count as one: files often hold them in single precision or with
+// seven digits, so that those of two triangles differ in the last one.
+constexpr double kSameNormal = 1e-6;
+
 // Where a mesh's normals come from.
 enum class NormalSource {
   file,    // all from the file

@@ -130,12 +130,11 @@ std::vector<Side> sides_between(const Triangles& triangles) {
 
 // Counts the edges of the report.
 void count_edges(const Mesh& mesh, MeshReport& report) {
-  // Files often hold normals in single precision: equal ones may differ in the last digit.
   const auto differ = [&](const Side& a, uint32_t end_of_a, const Side& b, uint32_t end_of_b) {
     const auto normal_at = [&](const Side& side, uint32_t end) {
       return mesh.normals[mesh.triangles[side.triangle].normal[(side.corner + end) % 3]];
     };
-    return glm::distance(normal_at(a, end_of_a), normal_at(b, end_of_b)) > 1e-6;
+    return glm::distance(normal_at(a, end_of_a), normal_at(b, end_of_b)) > kSameNormal;
   };
   for_edges(sides_between(mesh.triangles), [&](std::span<const Side> sides) {
     if (sides.size() == 1) ++report.open_edges;

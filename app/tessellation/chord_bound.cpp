@@ -34,9 +34,11 @@ double cubic_chord_bound(const Patch& patch, const CornerWeights& piece, double 
       glm::length(D[2] * (on[0] - at[2]) + D[0] * (on[1] - at[0]) + D[1] * (on[2] - at[1]));
   // w_i w_j (w_i + w_j) = w_i w_j - w_0 w_1 w_2, and w_0 w_1 w_2 <= 1/27.
   const double inside = std::max(0.0, 2.0 * middle - (edge[0] + edge[1] + edge[2]));
-  const double size = std::abs(q.edge.x) + std::abs(q.edge.y) + std::abs(q.edge.z);
+  // Every figure is made by fewer than a hundred roundings of numbers no larger than this: a
+  // coefficient of the quadratic is a difference of products as long as an edge.
+  const double size = (1.0 + std::abs(alpha)) * patch.longest * 4.0 * longest_of(patch.D);
   return largest_of_products(edge[0], edge[1], edge[2]) * (1.0 + gamma_double(100)) +
-         inside / 27.0 + size * longest_of(D) * gamma_double(100);
+         inside / 27.0 + size * gamma_double(100);
 }
 
 }  // namespace

@@ -28,9 +28,12 @@ using glm::dvec3;
 struct Piece {
   uint32_t patch = 0;
   std::array<PieceCorner, 3> corner{};
-  double bound = -1.0;    // not known yet
+  double off = 0.0;       // how far its corners are off the patch's own surface
+  double chord = -1.0;    // chord_bound(); not known yet
   double expected = 1.0;  // how many it will take, roughly and rather fewer
   uint32_t halved = 0;    // its edges that are to be: bit i for that from corner i to the next
+
+  [[nodiscard]] double bound() const { return chord + off; }
 };
 
 CornerWeights weights_of(const Piece& piece) {
@@ -48,17 +51,23 @@ CornerWeights weights_of(const Piece& piece) {
 class PieceBounds {
  public:
   PieceBounds(const BakedScene& scene, const SurfaceVertices& vertices)
-      : scene_(scene), vertices_(vertices) {}
+      : scene_(scene),
+        vertices_(vertices),
+        // No point of the surface is farther from the scene's origin. Some hundred roundings make a
+        // position; the rest is for those of sigma, which grow where it is steep.
+        rounding_(gamma_double(900) * (glm::length(scene.origin) +
+                                       (3.0 + 2.0 * std::abs(scene.choice.alpha)) * scene.extent)) {
+  }
 
-  // The bound with what its vertices are off the patch's own surface: roundings.
-  [[nodiscard]] double bound(const Piece& piece) const {
-    double off = 0.0;
+  // Sets `off` and `chord`.
+  void measure(Piece& piece) const {
+    piece.off = 0.0;
     for (const PieceCorner& corner : piece.corner) {
       const dvec3 own = vertices_.surface_point(piece.patch, corner.weights);
-      max_propagating_nan(off, glm::distance(own, vertices_.position(corner.vertex)));
+      max_propagating_nan(piece.off, glm::distance(own, vertices_.position(corner.vertex)));
     }
-    if (std::isnan(off)) return kInfinity;
-    return chord_bound(scene_.choice, patch_of(piece), weights_of(piece)) + off;
+    piece.off = std::isnan(piece.off) ? kInfinity : piece.off + rounding_;
+    piece.chord = chord_bound(scene_.choice, patch_of(piece), weights_of(piece));
   }
 
   // How far the surface beside each edge is from it: at a third and two thirds of the way, for a
@@ -79,7 +88,7 @@ class PieceBounds {
     return bend;
   }
 
-  // The edges to halve for a bound of `error`: the most bent one, and where much is missing those
+  // The edges to halve for a bend of `error`: the most bent one, and where much is missing those
   // that come near it. If none is bent for what the bound says the piece has its bend inside, or
   // the bound is far from the truth: then the longest, and so in a sliver, which other edges would
   // make thinner and thinner. None that are shorter than a quarter of `error`. Lengths are those in
@@ -95,12 +104,12 @@ class PieceBounds {
     const double longest = longest_of({T[1] - T[0], T[2] - T[1], T[0] - T[2]});
     const double height = glm::length(glm::cross(T[1] - T[0], T[2] - T[0])) / longest;
     const bool by_bend =
-        height > longest / 16.0 && *std::max_element(bend.begin(), bend.end()) > 0.1 * piece.bound;
+        height > longest / 16.0 && *std::max_element(bend.begin(), bend.end()) > 0.1 * piece.chord;
     const std::array<double, 3>& by = by_bend ? bend : length;
     const double most = *std::max_element(by.begin(), by.end());
     // Halving all three quarters the bound. Up to twice the error one edge is often enough: a tenth
     // fewer triangles on the models here.
-    const double near = piece.bound > 2.0 * error ? 0.7 * most : most;
+    const double near = piece.chord > 2.0 * error ? 0.7 * most : most;
     uint32_t edges = 0;
     for (uint32_t i = 0; i < 3; ++i) {
       if (by[i] > 0.0 && by[i] >= near) edges |= 1U << i;
@@ -115,7 +124,20 @@ class PieceBounds {
 
   const BakedScene& scene_;
   const SurfaceVertices& vertices_;
+  double rounding_;
 };
+
+// Calls work(piece) for each, on all cores; false if keep_going stopped it.
+template <typename Work>
+bool for_pieces(std::vector<Piece>& pieces, const Work& work, const KeepGoing& keep_going) {
+  const auto chunk = [&](uint32_t number) {
+    const std::size_t first = number * kChunk;
+    const std::size_t end = std::min(first + kChunk, pieces.size());
+    for (std::size_t k = first; k < end; ++k) work(pieces[k]);
+  };
+  const auto chunks = static_cast<uint32_t>((pieces.size() + kChunk - 1) / kChunk);
+  return parallel_rows(chunks, chunk, [&](uint32_t) { return may_go_on(keep_going); });
+}
 
 FlatMesh mesh_of(const std::vector<Piece>& pieces, SurfaceVertices& vertices, double error) {
   FlatMesh flat;
@@ -125,8 +147,9 @@ FlatMesh mesh_of(const std::vector<Piece>& pieces, SurfaceVertices& vertices, do
     flat.triangles.emplace_back(piece.corner[0].vertex, piece.corner[1].vertex,
                                 piece.corner[2].vertex);
     flat.patches.push_back(piece.patch);
-    flat.bound = std::max(flat.bound, piece.bound);
-    flat.beyond_error += piece.bound > error ? 1 : 0;
+    flat.bound = std::max(flat.bound, piece.bound());
+    flat.off = std::max(flat.off, piece.off);
+    flat.beyond_error += piece.bound() > error ? 1 : 0;
   }
   flat.positions = vertices.take_positions();
   flat.normals = vertices.take_normals();
@@ -154,13 +177,13 @@ class Refinement {
     pieces_ = whole_patches(scene.triangles.size(), vertices_);
   }
 
-  // One round: false if nothing is left to do.
-  bool refine() {
-    parallel_chunks(pieces_.size(), kChunk, [&](std::size_t first, std::size_t end) {
-      for (std::size_t k = first; k < end; ++k) {
-        if (pieces_[k].bound < 0.0) examine(pieces_[k]);
-      }
-    });
+  enum class Round { divided, nothing_left, stopped };
+
+  Round refine(const KeepGoing& keep_going) {
+    const auto look = [this](Piece& piece) {
+      if (piece.chord < 0.0) examine(piece);
+    };
+    if (!for_pieces(pieces_, look, keep_going)) return Round::stopped;
     halved_.clear();
     double expected = 0.0;
     for (const Piece& piece : pieces_) {
@@ -169,7 +192,7 @@ class Refinement {
         if ((piece.halved >> i & 1U) != 0) halved_.insert(edge_of(piece, i));
       }
     }
-    if (halved_.empty()) return false;
+    if (halved_.empty()) return Round::nothing_left;
     if (expected > static_cast<double>(kMostFlatTriangles)) too_many();
     std::vector<Piece> divided;
     divided.reserve(pieces_.size() + halved_.size() * 2);
@@ -179,21 +202,25 @@ class Refinement {
     }
     pieces_ = std::move(divided);
     vertices_.forget_edges();
-    return true;
+    return may_go_on(keep_going) ? Round::divided : Round::stopped;
   }
 
   FlatMesh mesh() { return mesh_of(pieces_, vertices_, error_); }
 
  private:
   void examine(Piece& piece) const {
-    piece.bound = bounds_.bound(piece);
-    if (!(piece.bound > error_)) return;
+    bounds_.measure(piece);
+    if (!(piece.bound() > error_)) return;
+    // No division makes up for corners that are off: it need not be finer than those are.
+    const double enough =
+        std::isinf(piece.off) ? error_ : std::max(error_ - piece.off, 0.25 * piece.off);
+    if (!(piece.chord > enough)) return;
     const std::array<double, 3> bend = bounds_.bends(piece);
-    piece.halved = bounds_.edges_to_halve(piece, bend, error_);
+    piece.halved = bounds_.edges_to_halve(piece, bend, enough);
     // Bent in all directions, into as many as the bend is larger than the error; in one, their
     // root.
     const auto [least, most] = std::minmax_element(bend.begin(), bend.end());
-    piece.expected = std::max(1.0, std::sqrt(*most * std::max(*least, error_)) / error_);
+    piece.expected = std::max(1.0, std::sqrt(*most * std::max(*least, enough)) / enough);
   }
 
   // The edge from corner i.
@@ -263,80 +290,100 @@ class Refinement {
   std::unordered_set<uint64_t> halved_;
 };
 
-}  // namespace
+// Divides patches into n x n pieces.
+class EvenDivision {
+ public:
+  EvenDivision(SurfaceVertices& vertices, uint32_t n)
+      : vertices_(vertices), n_(n), grid_((std::size_t{n} + 1) * (n + 1)) {}
 
-FlatMesh divided_evenly(const Mesh& mesh, const BakedScene& scene, uint32_t n) {
-  const std::size_t patches = scene.triangles.size();
-  if (patches * n * n > kMostFlatTriangles) too_many();
-  SurfaceVertices vertices(mesh, scene);
-  const std::vector<Piece> whole = whole_patches(patches, vertices);
-  std::vector<Piece> pieces;
-  pieces.reserve(patches * n * n);
-  const auto part = [n](uint32_t i) { return static_cast<double>(i) / static_cast<double>(n); };
-  std::vector<uint32_t> grid((std::size_t{n} + 1) * (n + 1));
-  for (const Piece& patch : whole) {
-    // Row i is i steps away from vertex 0, its column k k steps from the side 01.
-    const auto at = [&](uint32_t i, uint32_t k) -> uint32_t& {
-      return grid[std::size_t{i} * (n + 1) + k];
-    };
-    const auto weights_at = [&](uint32_t i, uint32_t k) {
-      return dvec3(part(n - i), part(i - k), part(k));
-    };
-    std::array<SurfaceVertices::Between, 3> sides{};
-    for (std::size_t k = 0; n > 1 && k < 3; ++k) {
-      const std::size_t next = (k + 1) % 3;
-      sides[k] = vertices.between(patch.patch, patch.corner[k], patch.corner[next], n - 1);
+  // Row i of the grid is i steps away from vertex 0, its column k k steps from the side 01. Adds
+  // the pieces to `pieces`; false if keep_going stopped it.
+  bool divide(const Piece& patch, std::vector<Piece>& pieces, const KeepGoing& keep_going) {
+    patch_ = &patch;
+    for (std::size_t k = 0; n_ > 1 && k < 3; ++k) {
+      sides_[k] =
+          vertices_.between(patch.patch, patch.corner[k], patch.corner[(k + 1) % 3], n_ - 1);
     }
-    // The step-th of n along a side.
-    const auto along = [n](const SurfaceVertices::Between& side, uint32_t step) {
-      return side.first + (side.reversed ? n - step : step) - 1;
-    };
-    for (uint32_t i = 0; i <= n; ++i) {
-      for (uint32_t k = 0; k <= i; ++k) {
-        if (i == 0) {
-          at(i, k) = patch.corner[0].vertex;
-        } else if (i == n && k == 0) {
-          at(i, k) = patch.corner[1].vertex;
-        } else if (i == n && k == n) {
-          at(i, k) = patch.corner[2].vertex;
-        } else if (k == 0) {
-          at(i, k) = along(sides[0], i);
-        } else if (i == n) {
-          at(i, k) = along(sides[1], k);
-        } else if (k == i) {
-          at(i, k) = along(sides[2], n - i);
-        } else {
-          at(i, k) = vertices.within(patch.patch, weights_at(i, k));
-        }
-      }
+    for (uint32_t i = 0; i <= n_; ++i) {
+      if (!may_go_on(keep_going)) return false;
+      for (uint32_t k = 0; k <= i; ++k) at(i, k) = vertex(i, k);
     }
-    const auto corner = [&](glm::uvec2 step) {
-      return PieceCorner{at(step.x, step.y), weights_at(step.x, step.y)};
-    };
     const auto add = [&](glm::uvec2 a, glm::uvec2 b, glm::uvec2 c) {
       pieces.push_back({patch.patch, {corner(a), corner(b), corner(c)}});
     };
-    for (uint32_t i = 0; i < n; ++i) {
+    for (uint32_t i = 0; i < n_; ++i) {
       for (uint32_t k = 0; k <= i; ++k) {
         add({i, k}, {i + 1, k}, {i + 1, k + 1});
         if (k < i) add({i, k}, {i + 1, k + 1}, {i, k + 1});
       }
     }
+    return true;
+  }
+
+ private:
+  uint32_t& at(uint32_t i, uint32_t k) { return grid_[std::size_t{i} * (n_ + 1) + k]; }
+
+  [[nodiscard]] dvec3 weights(uint32_t i, uint32_t k) const {
+    return dvec3(n_ - i, i - k, k) / static_cast<double>(n_);
+  }
+
+  PieceCorner corner(glm::uvec2 step) { return {at(step.x, step.y), weights(step.x, step.y)}; }
+
+  // The step-th of n along a side.
+  [[nodiscard]] uint32_t along(std::size_t side, uint32_t step) const {
+    const SurfaceVertices::Between& between = sides_[side];
+    return between.first + (between.reversed ? n_ - step : step) - 1;
+  }
+
+  uint32_t vertex(uint32_t i, uint32_t k) {
+    if (i == 0) return patch_->corner[0].vertex;
+    if (i == n_ && k == 0) return patch_->corner[1].vertex;
+    if (i == n_ && k == n_) return patch_->corner[2].vertex;
+    if (k == 0) return along(0, i);
+    if (i == n_) return along(1, k);
+    if (k == i) return along(2, n_ - i);
+    return vertices_.within(patch_->patch, weights(i, k));
+  }
+
+  SurfaceVertices& vertices_;
+  uint32_t n_;
+  std::vector<uint32_t> grid_;  // vertices
+  const Piece* patch_ = nullptr;
+  std::array<SurfaceVertices::Between, 3> sides_{};
+};
+
+}  // namespace
+
+std::optional<FlatMesh> divided_evenly(const Mesh& mesh, const BakedScene& scene, uint32_t n,
+                                       const KeepGoing& keep_going) {
+  const std::size_t patches = scene.triangles.size();
+  if (patches * n * n > kMostFlatTriangles) too_many();
+  SurfaceVertices vertices(mesh, scene);
+  EvenDivision division(vertices, n);
+  std::vector<Piece> pieces;
+  pieces.reserve(patches * n * n);
+  for (const Piece& patch : whole_patches(patches, vertices)) {
+    if (!division.divide(patch, pieces, keep_going)) return std::nullopt;
   }
   const PieceBounds bounds(scene, vertices);
-  parallel_chunks(pieces.size(), kChunk, [&](std::size_t first, std::size_t end) {
-    for (std::size_t k = first; k < end; ++k) pieces[k].bound = bounds.bound(pieces[k]);
-  });
+  const auto measure = [&](Piece& piece) { bounds.measure(piece); };
+  if (!for_pieces(pieces, measure, keep_going)) return std::nullopt;
   return mesh_of(pieces, vertices, kInfinity);
 }
 
 std::optional<FlatMesh> divided_to(const Mesh& mesh, const BakedScene& scene, double error,
                                    const KeepGoing& keep_going) {
   Refinement refinement(mesh, scene, error);
-  while (refinement.refine()) {
-    if (!may_go_on(keep_going)) return std::nullopt;
+  for (;;) {
+    switch (refinement.refine(keep_going)) {
+      case Refinement::Round::divided:
+        break;
+      case Refinement::Round::nothing_left:
+        return refinement.mesh();
+      case Refinement::Round::stopped:
+        return std::nullopt;
+    }
   }
-  return refinement.mesh();
 }
 
 std::vector<uint32_t> first_at_same_place(const FlatMesh& mesh) {

@@ -24,22 +24,28 @@ struct FlatMesh {
   // Proven, in the model's units: no point of the surface is farther than that from the triangles,
   // and no point of the triangles from the surface (chord_bound).
   double bound = 0.0;
-  std::size_t beyond_error =
-      0;  // triangles whose own bound is larger than divided_to() was asked for
+  // What of it is not the surface's bend: the farthest that a vertex is off the surface of one of
+  // its patches. Positions of the mesh are as they were before bake() rounded them to single
+  // precision, and neighbours whose normals differ a little have their vertices in common.
+  double off = 0.0;
+  // Triangles whose own bound is larger than divided_to() was asked for.
+  std::size_t beyond_error = 0;
 };
 
-// The most triangles that are made.
+// The most triangles that are made; they take up to 320 bytes each meanwhile.
 constexpr std::size_t kMostFlatTriangles = 16'000'000;
 
 // Every patch as n x n triangles. scene: bake(mesh, ...) in the normal shell. Works on all cores;
-// the result does not depend on their number. Throws InputError beyond kMostFlatTriangles.
-FlatMesh divided_evenly(const Mesh& mesh, const BakedScene& scene, uint32_t n);
+// the result does not depend on their number. Nothing if keep_going stopped it. Throws InputError
+// beyond kMostFlatTriangles.
+std::optional<FlatMesh> divided_evenly(const Mesh& mesh, const BakedScene& scene, uint32_t n,
+                                       const KeepGoing& keep_going = {});
 
 // As many triangles as it takes for a bound of `error`, in the model's units: edges are halved for
 // both of their triangles, the most bent first, until every triangle's own bound is small enough.
 // Where lines begin to miss a vertex's sphere no bound falls as fast as triangles shrink: those of
-// less than a quarter of `error` are left as they are, and the mesh's bound is then larger.
-// Nothing if keep_going stopped it. Throws InputError beyond kMostFlatTriangles.
+// less than a quarter of `error` are left as they are, and the mesh's bound is then larger; so is
+// it where FlatMesh::off is more than three quarters of `error`. scene, the rest: as above.
 std::optional<FlatMesh> divided_to(const Mesh& mesh, const BakedScene& scene, double error,
                                    const KeepGoing& keep_going = {});
 

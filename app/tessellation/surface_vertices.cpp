@@ -30,7 +30,7 @@ uint32_t SurfaceVertices::at_corner(uint32_t patch, std::size_t corner) {
   // Normals count as the surface has them, in single precision.
   const glm::vec3 normal(scene_.triangles[patch].Normal[static_cast<int>(corner)]);
   for (uint32_t v = first_of_place_[place]; v != kNoVertex; v = next_[v]) {
-    if (normals_[v] == normal) return v;
+    if (glm::distance(dvec3(normals_[v]), dvec3(normal)) <= kSameNormal) return v;
   }
   return add(mesh_.positions[place], normal, place);
 }
@@ -92,12 +92,22 @@ uint32_t SurfaceVertices::on_surface(uint32_t patch, const dvec3& weights, uint3
   const auto is_finite = [](const dvec3& v) { return std::isfinite(glm::dot(v, v)); };
   if (!is_finite(normal)) normal = dvec3(tri.TriNormal);
   if (!is_finite(point)) point = scene_.origin + in_double::base_point(tri, weights);
-  // Where the two sides of a hard edge have the same curve, roundings must not part them.
-  if (const uint32_t other = first_of_place_[place]; other != kNoVertex) {
-    const double rounding = 1e-14 * (scene_.extent + glm::length(scene_.origin));
-    if (glm::distance(point, positions_[other]) <= rounding) point = positions_[other];
+  return add(joined(point, place), glm::vec3(normal), place);
+}
+
+// The nearest vertex of the same place instead of a point, if it is near enough.
+dvec3 SurfaceVertices::joined(const dvec3& point, uint32_t place) const {
+  // With every normal turned by t radians, alpha sum_{i<j} w_i w_j (P_j - P_i).(N_j - N_i) changes
+  // by less than alpha t times the longest edge, which is less than twice the radius.
+  double nearest = 4.0 * kSameNormal * scene_.extent;
+  dvec3 at = point;
+  for (uint32_t v = first_of_place_[place]; v != kNoVertex; v = next_[v]) {
+    const double distance = glm::distance(point, positions_[v]);
+    if (distance > nearest) continue;
+    nearest = distance;
+    at = positions_[v];
   }
-  return add(point, glm::vec3(normal), place);
+  return at;
 }
 
 }  // namespace trisect

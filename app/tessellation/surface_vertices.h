@@ -21,7 +21,10 @@ struct PieceCorner {
 };
 
 // A vertex has a place and a normal. The two sides of a hard edge have vertices of their own, as
-// their normals differ, at the same places: what divides one side divides the other.
+// their normals differ (by more than kSameNormal), at the same places: what divides one side
+// divides the other. Where the curves of both sides are no farther apart than a difference of
+// kSameNormal can move them, they have the same positions: then a vertex may be that much off a
+// patch's own surface.
 class SurfaceVertices {
  public:
   // scene: bake(mesh, ...) in the normal shell. Both must outlive the object.
@@ -61,6 +64,7 @@ class SurfaceVertices {
  private:
   uint32_t add(const glm::dvec3& position, const glm::vec3& normal, uint32_t place);
   uint32_t on_surface(uint32_t patch, const glm::dvec3& weights, uint32_t place);
+  [[nodiscard]] glm::dvec3 joined(const glm::dvec3& point, uint32_t place) const;
 
   const Mesh& mesh_;
   const BakedScene& scene_;

@@ -144,7 +144,7 @@ TEST(ModelFile, ReadsInSixTimesItsSize) {
   const std::vector<MeshFormat> formats{MeshFormat::ply, MeshFormat::stl, MeshFormat::glb};
   {
     const Mesh mesh = test::load_asset("sphere-20");
-    const FlatMesh flat = divided_evenly(mesh, bake(mesh, {}), 150);
+    const FlatMesh flat = *divided_evenly(mesh, bake(mesh, {}), 150);
     for (const MeshFormat format : formats) {
       AtomicFile file(path(format));
       write_mesh(flat, format, file);

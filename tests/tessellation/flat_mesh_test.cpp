@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <set>
 
 #include "app/bake/subpatch_bounds.h"
@@ -159,7 +160,7 @@ void expect_close(const Model& model, const FlatMesh& flat) {
     }
   }
   EXPECT_LE(farthest, flat.bound + rounding);
-  const FlatMesh fine = divided_evenly(model.mesh, model.scene, 40);
+  const FlatMesh fine = *divided_evenly(model.mesh, model.scene, 40);
   const std::vector<vec3> fine_positions = rounded(fine.positions);
   const Traced surface(fine_positions, fine.triangles);
   double away = 0.0;
@@ -201,7 +202,7 @@ TEST(FlatMesh, SaysWhereItsBoundIsLarger) {
 
 TEST(FlatMesh, TakesTrianglesWhereTheSurfaceBends) {
   const Model model("teapot", SURFACE_PHONG);
-  const FlatMesh even = divided_evenly(model.mesh, model.scene, 8);
+  const FlatMesh even = *divided_evenly(model.mesh, model.scene, 8);
   const std::optional<FlatMesh> fitted = divided_to(model.mesh, model.scene, 1.01 * even.bound);
   ASSERT_TRUE(fitted);
   EXPECT_LT(fitted->triangles.size() * 2, even.triangles.size());
@@ -215,7 +216,7 @@ TEST(FlatMesh, DividesEvenly) {
   const std::size_t patches = model.scene.triangles.size();
   double before = std::numeric_limits<double>::infinity();
   for (const uint32_t n : {1U, 2U, 3U, 8U}) {
-    const FlatMesh flat = divided_evenly(model.mesh, model.scene, n);
+    const FlatMesh flat = *divided_evenly(model.mesh, model.scene, n);
     EXPECT_EQ(flat.triangles.size(), patches * n * n);
     // Of a closed mesh of genus 1: vertices - edges + triangles = 0, 3 triangles = 2 edges.
     EXPECT_EQ(flat.positions.size(), flat.triangles.size() / 2);
@@ -250,7 +251,7 @@ TEST(FlatMesh, WritesNoNaN) {
   const Mesh mesh = test::one_triangle({dvec3(0, 0, 0), dvec3(1, 0, 0), dvec3(0, 1, 0)},
                                        {dvec3(0, 0, 1), dvec3(0, 0, -1), dvec3(0, 1, 0)});
   const BakedScene scene = bake(mesh, {SURFACE_SPHERE, 0.0, SHELL_NORMAL});
-  const FlatMesh flat = divided_evenly(mesh, scene, 2);
+  const FlatMesh flat = *divided_evenly(mesh, scene, 2);
   for (std::size_t v = 0; v < flat.positions.size(); ++v) {
     EXPECT_TRUE(std::isfinite(glm::dot(flat.positions[v], flat.positions[v])));
     EXPECT_TRUE(std::isfinite(glm::dot(flat.normals[v], flat.normals[v])));
@@ -275,9 +276,84 @@ TEST(FlatMesh, KeepsHardEdgesClosedThatStayStraight) {
   EXPECT_GT(count_open_edges(*flat_beside_curved), 0U);
   // All of them flat: as the whole is divided, so is each side of an edge.
   Mesh cube = test::load_asset("cube");
-  const FlatMesh divided = divided_evenly(cube, bake(cube, smooth.scene.choice), 7);
+  const FlatMesh divided = *divided_evenly(cube, bake(cube, smooth.scene.choice), 7);
   EXPECT_EQ(count_open_edges(divided), 0U);
   EXPECT_GT(divided.positions.size(), divided.triangles.size() / 2 + 2);
+}
+
+// Normals of a file that are not the same to the last digit, as programs write them.
+Mesh with_normals_apart(const Mesh& smooth, double by) {
+  Mesh mesh = smooth;
+  mesh.normals.clear();
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (MeshTriangle& t : mesh.triangles) {
+    for (uint32_t& n : t.normal) {
+      const dvec3 off(unit(random), unit(random), unit(random));
+      mesh.normals.push_back(glm::normalize(smooth.normals[n] + off * by));
+      n = static_cast<uint32_t>(mesh.normals.size() - 1);
+    }
+  }
+  return mesh;
+}
+
+TEST(FlatMesh, IsClosedWhereNormalsDifferInTheLastDigit) {
+  for (const std::string asset : {"sphere-20", "torus"}) {
+    for (const uint surface : {SURFACE_PHONG, SURFACE_SPHERE}) {
+      SCOPED_TRACE(asset + " " + surface_name(surface));
+      const Mesh smooth = test::load_asset(asset);
+      // Apart by less than kSameNormal (1.7 times by, twice), so that vertices are the same; by
+      // somewhat more, so that only their positions are.
+      for (const double by : {2e-7, 8e-7}) {
+        const Mesh mesh = with_normals_apart(smooth, by);
+        const BakedScene scene = bake(mesh, {surface, 0.65, SHELL_NORMAL});
+        const std::optional<FlatMesh> flat = divided_to(mesh, scene, 0.01 * scene.extent);
+        ASSERT_TRUE(flat);
+        EXPECT_EQ(flat->beyond_error, 0U);
+        EXPECT_EQ(count_open_edges(*flat), 0U);
+        EXPECT_GT(flat->off, 1e-9);
+        EXPECT_LT(flat->off, 1e-5 * scene.extent);
+        const FlatMesh even = *divided_evenly(mesh, scene, 5);
+        EXPECT_EQ(count_open_edges(even), 0U);
+        if (by < 3e-7) {
+          EXPECT_LE(even.positions.size(), even.triangles.size() / 2 + 2);
+        }
+      }
+    }
+  }
+}
+
+// The surface has its vertices in single precision, the mesh that is written in double: no division
+// brings them nearer.
+TEST(FlatMesh, DividesNothingForWhatRoundingMoves) {
+  const Model flat("teapot", SURFACE_FLAT);
+  const std::optional<FlatMesh> as_it_is = divided_to(flat.mesh, flat.scene, 1e-9);
+  ASSERT_TRUE(as_it_is);
+  EXPECT_EQ(as_it_is->triangles.size(), flat.mesh.triangles.size());
+  EXPECT_GT(as_it_is->beyond_error, 0U);
+  EXPECT_GT(as_it_is->off, 1e-8);
+  EXPECT_LT(as_it_is->off, 1e-6);
+  // One that bends a little is divided until its bend is less than that.
+  const Mesh mesh = test::load_asset("sphere-20");
+  const BakedScene scene = bake(mesh, {SURFACE_PHONG, 2e-5, SHELL_NORMAL});
+  const std::optional<FlatMesh> finest = divided_to(mesh, scene, 1e-9);
+  ASSERT_TRUE(finest);
+  EXPECT_GT(finest->triangles.size(), 1000U);
+  EXPECT_GT(finest->bound, 1.02 * finest->off);
+  EXPECT_LE(finest->bound, 1.25 * finest->off);
+}
+
+TEST(FlatMesh, StopsWhenItIsTold) {
+  const Model model("torus", SURFACE_PHONG);
+  for (const int after : {0, 1, 5}) {
+    int asked = 0;
+    const KeepGoing keep_going = [&] { return asked++ < after; };
+    EXPECT_FALSE(divided_to(model.mesh, model.scene, 1e-4, keep_going));
+    EXPECT_EQ(asked, after + 1);
+    asked = 0;
+    EXPECT_FALSE(divided_evenly(model.mesh, model.scene, 20, keep_going));
+    EXPECT_EQ(asked, after + 1);
+  }
 }
 
 // What another program makes of the file: where our frame has a hit it has a surface within the
@@ -341,7 +417,7 @@ TEST(FlatMeshFile, EveryFormatHasTheSameSurface) {
   Mesh mesh = test::load_asset("cube");
   for (dvec3& p : mesh.positions) p += dvec3(1000.1, -20.3, 5.7);
   const BakedScene scene = bake(mesh, {SURFACE_PHONG, 0.65, SHELL_NORMAL});
-  const FlatMesh flat = divided_evenly(mesh, scene, 3);
+  const FlatMesh flat = *divided_evenly(mesh, scene, 3);
   for (const std::string name : {"a.obj", "a.PLY", "a.stl", "a.glb"}) {
     SCOPED_TRACE(name);
     const std::optional<MeshFormat> format = mesh_format_of(name);
