@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <span>
+#include <tuple>
 #include <utility>
 
 namespace trisect {
@@ -78,7 +80,7 @@ class NormalMaker {
   // around: the corners at a vertex.
   void add(std::span<const uint32_t> around) {
     Connected connected = connected_faces(around);
-    const std::size_t first = made_.normals.size();
+    std::vector<dvec3> normals(around.size());
     std::vector<dvec3> weighted;
     std::vector<dvec3> sums(around.size(), dvec3(0.0));
     for (uint32_t i = 0; i < around.size(); ++i) {
@@ -101,17 +103,25 @@ class NormalMaker {
       }
       // Where the faces cancel out, as on the two sides of a sheet, the corner's own face decides.
       const double length = glm::length(sum);
-      made_.of_corner[around[i]] = number_of(length > 1e-9 ? sum / length : face, first);
+      normals[i] = length > 1e-9 ? sum / length : face;
     }
+    number(around, normals);
   }
 
-  // Of a normal among those from `first` on, to which it is added if it is not there.
-  uint32_t number_of(const dvec3& normal, std::size_t first) {
-    const auto begin = made_.normals.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto found = std::find(begin, made_.normals.end(), normal);
-    const auto number = static_cast<uint32_t>(found - made_.normals.begin());
-    if (found == made_.normals.end()) made_.normals.push_back(normal);
-    return number;
+  // Gives each of the corners around a vertex its normal: equal ones are one.
+  void number(std::span<const uint32_t> around, const std::vector<dvec3>& normals) {
+    std::vector<uint32_t> order(around.size());
+    std::iota(order.begin(), order.end(), 0U);
+    const auto before = [&](uint32_t a, uint32_t b) {
+      const dvec3& m = normals[a];
+      const dvec3& n = normals[b];
+      return std::tie(m.x, m.y, m.z) < std::tie(n.x, n.y, n.z);
+    };
+    std::sort(order.begin(), order.end(), before);
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      if (k == 0 || before(order[k - 1], order[k])) made_.normals.push_back(normals[order[k]]);
+      made_.of_corner[around[order[k]]] = static_cast<uint32_t>(made_.normals.size() - 1);
+    }
   }
 
   Connected connected_faces(std::span<const uint32_t> around) const {
