@@ -115,7 +115,7 @@ ordered_json quantisation_of(const Model& model) {
 std::string quantisation_text(const Model& model) {
   const PolygonModel& polygons = model.polygons;
   if (!std::isfinite(polygons.position_rounding + polygons.normal_rounding)) {
-    return "by a compression that does not say how far it rounds";
+    return "by a compression whose rounding is not read";
   }
   std::string text =
       fmt::format("positions are off by up to {:.2g}, normals by {:.2g} degrees",

@@ -9,6 +9,7 @@
 #include "app/bake/bake.h"
 #include "app/bake/subpatch_bounds.h"
 #include "app/base/error.h"
+#include "app/base/interval.h"
 #include "app/base/parallel_rows.h"
 #include "app/cli/interrupt.h"
 #include "app/mesh/edges.h"
@@ -129,6 +130,7 @@ ModelFacts facts_of(const Mesh& mesh, uint surface) {
 }
 
 double moved_by_rounding(const Mesh& mesh, double alpha, double position, double normal) {
+  if (std::isinf(position) || std::isinf(normal)) return kInfinity;
   double displacement = 0.0;  // over all edges, three times the largest
   double change = 0.0;
   for (const MeshTriangle& t : mesh.triangles) {

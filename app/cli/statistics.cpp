@@ -50,6 +50,7 @@ std::string to_json(const RenderOptions& options, const RenderStatistics& statis
   json["device"] = statistics.device;
   json["driver"] = statistics.driver;
   json["backend"] = backend_name(options.backend);
+  if (options.backend == Backend::opengl) json["gl_path"] = gl_path_name(options.gl_path);
   json["model"] = options.model;
   json["patches"] = statistics.patches;
   json["width"] = options.width;
@@ -114,6 +115,9 @@ std::vector<ImageAttribute> attributes_of(const RenderOptions& options,
                                          {"spp", static_cast<int>(options.spp)},
                                          {"weld", options.mesh.weld},
                                          {"repair", static_cast<int>(options.mesh.repair)}};
+  if (options.backend == Backend::opengl) {
+    attributes.push_back({"gl_path", std::string(gl_path_name(options.gl_path))});
+  }
   if (options.mesh.crease_degrees) attributes.push_back({"crease", *options.mesh.crease_degrees});
   return attributes;
 }

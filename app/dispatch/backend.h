@@ -24,4 +24,8 @@ constexpr const char* backend_name(Backend backend) {
   return "";
 }
 
+constexpr const char* gl_path_name(GlPath path) {
+  return path == GlPath::fragment ? "fragment" : "compute";
+}
+
 }  // namespace trisect

@@ -25,7 +25,7 @@ struct Table {
   std::size_t columns = 0;
   std::vector<double> numbers;
   // The step between the numbers that it can have: 0 for floats, infinite if a compression has
-  // rounded them and does not say how far.
+  // rounded them: how far is not read.
   double step = 0.0;
 
   [[nodiscard]] std::size_t rows() const { return columns == 0 ? 0 : numbers.size() / columns; }

@@ -166,7 +166,7 @@ double largest_rounding(const dmat3& m, double step) {
   return 0.5 * step * largest;
 }
 
-// By how much a unit vector differs from that of a vector that is `rounding` away from one of this
+// How far apart the unit vectors can be of two vectors that are `rounding` apart, one of this
 // length.
 double unit_rounding(double rounding, double length) {
   if (rounding == 0.0 || length == 0.0) return 0.0;

@@ -33,8 +33,8 @@ struct PolygonModel {
   // group of one polygon. Empty: all polygons are in one.
   std::vector<uint32_t> smoothing_groups;
   // How far quantisation can have moved what the file's author had: positions, a length, and
-  // normals, the length of the difference of unit vectors. 0 if it has floats, infinite if a
-  // compression does not say.
+  // normals, the length of the difference of unit vectors; for the weights of a skin as the file
+  // has them. 0 if it has floats, infinite if a compression has rounded them: its step is not read.
   double position_rounding = 0.0;
   double normal_rounding = 0.0;
   std::vector<PolygonGroup> groups;  // those that have polygons; none if the file names none

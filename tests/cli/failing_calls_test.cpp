@@ -90,6 +90,18 @@ TEST(FailingCalls, ShowTheReportOfADriverThatHasOne) {
   test::expect_told(command.run({"vkWaitForFences", 2, "VK_ERROR_OUT_OF_HOST_MEMORY"}));
 }
 
+// A picture alone is traced once; frames that are timed have one before them.
+TEST(Calls, TraceAFrameMoreOnlyWhereItIsTimed) {
+  const auto submits = [](const std::vector<std::string>& options) {
+    const std::vector<std::string> calls = render(options).calls();
+    return std::count(calls.begin(), calls.end(), "vkQueueSubmit");
+  };
+  const auto alone = submits({});
+  const auto of_a_frame = submits({"--runs", "1"}) - alone;
+  EXPECT_GT(of_a_frame, 0);
+  EXPECT_EQ(submits({"--runs", "3"}), alone + 3 * of_a_frame);
+}
+
 // What an earlier run kept is of no use then, but nothing else is wrong.
 TEST(FailingCalls, OfThePipelineStoreDoNoHarm) {
   const test::TemporaryFolder cache;

@@ -100,5 +100,13 @@ TEST(ModelFacts, BoundWhatRoundingsMove) {
   }
 }
 
+TEST(ModelFacts, BoundNothingOfUnknownRoundings) {
+  const Mesh mesh = test::load_asset("cube");
+  for (const double alpha : {0.0, 0.65}) {
+    EXPECT_EQ(moved_by_rounding(mesh, alpha, kInfinity, 0.0), kInfinity);
+    EXPECT_EQ(moved_by_rounding(mesh, alpha, 0.0, kInfinity), kInfinity);
+  }
+}
+
 }  // namespace
 }  // namespace trisect

@@ -54,33 +54,34 @@ TEST_F(Program, WritesStatistics) {
 
 // What the header of an EXR file says is enough to make the file again, byte for byte.
 TEST_F(Program, SaysInTheHeaderWhatMakesThePicture) {
-  const test::ProgramRun first = render({"--surface", "sphere", "--fov", "33.3", "--crease", "70",
-                                         "--shadows", "--light", "0.1,0.7,0.3", "--spp", "4"},
-                                        "a.exr");
-  ASSERT_EQ(first.exit_code, 0) << first.err;
-  std::map<std::string, std::string> said = test::exr_attributes(folder_ / "a.exr");
-  EXPECT_EQ(said["program"], "trisect " TRISECT_VERSION);
-  EXPECT_NE(said["commit"], "");
-  EXPECT_NE(said["driver"], "");
-  std::vector<std::string> again{"render",          said["model"], "-o",
-                                 folder_ / "b.exr", "--size",      "32x24"};
-  for (const std::string option :
-       {"surface", "shell", "solver", "rank", "accel", "alpha", "eye", "target", "up", "fov",
-        "light", "spp", "crease", "weld", "backend"}) {
-    ASSERT_EQ(said.count(option), 1U) << option;
-    again.push_back("--" + option + "=" + said[option]);
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"--surface", "sphere", "--fov", "33.3", "--crease", "70",
+                                 "--shadows", "--light", "0.1,0.7,0.3", "--spp", "4"},
+        std::vector<std::string>{"--backend", "opengl", "--gl-path", "fragment", "--weld",
+                                 "0.01"}}) {
+    const test::ProgramRun first = render(options, "a.exr");
+    ASSERT_EQ(first.exit_code, 0) << first.err;
+    std::map<std::string, std::string> said = test::exr_attributes(folder_ / "a.exr");
+    EXPECT_EQ(said["program"], "trisect " TRISECT_VERSION);
+    EXPECT_NE(said["commit"], "");
+    EXPECT_NE(said["driver"], "");
+    std::vector<std::string> again{"render",          said["model"], "-o",
+                                   folder_ / "b.exr", "--size",      "32x24"};
+    for (const std::string option : {"surface", "shell", "solver", "rank", "accel", "alpha", "eye",
+                                     "target", "up", "fov", "light", "spp", "weld", "backend"}) {
+      ASSERT_EQ(said.count(option), 1U) << option;
+      again.push_back("--" + option + "=" + said[option]);
+    }
+    EXPECT_EQ(said.count("crease"), options[0] == "--surface" ? 1U : 0U);
+    EXPECT_EQ(said.count("gl_path"), options[0] == "--backend" ? 1U : 0U);
+    if (said.count("crease") == 1) again.push_back("--crease=" + said["crease"]);
+    if (said.count("gl_path") == 1) again.push_back("--gl-path=" + said["gl_path"]);
+    if (said["shadows"] == "1") again.emplace_back("--shadows");
+    if (said["repair"] == "1") again.emplace_back("--repair");
+    const test::ProgramRun second = run_trisect(again);
+    ASSERT_EQ(second.exit_code, 0) << second.err;
+    EXPECT_EQ(test::content_of(folder_ / "a.exr"), test::content_of(folder_ / "b.exr"));
   }
-  if (said["shadows"] == "1") again.emplace_back("--shadows");
-  if (said["repair"] == "1") again.emplace_back("--repair");
-  const test::ProgramRun second = run_trisect(again);
-  ASSERT_EQ(second.exit_code, 0) << second.err;
-  EXPECT_EQ(test::content_of(folder_ / "a.exr"), test::content_of(folder_ / "b.exr"));
-}
-
-// A picture alone is traced once; frames that are timed have one before them.
-TEST_F(Program, WarmsUpOnlyWhereItTimes) {
-  EXPECT_NE(render().out.find("the first frame"), std::string::npos);
-  EXPECT_EQ(render({"--runs", "1"}).out.find("the first frame"), std::string::npos);
 }
 
 TEST_F(Program, PlacesTheCamera) {
@@ -212,6 +213,55 @@ TEST_F(Program, SaysWhatAModelIsLike) {
       run_trisect({"info", folder_ / "two.obj", "--repair", "--surface", "sphere"});
   EXPECT_NE(repaired.out.find("1 triangles turned around"), std::string::npos) << repaired.out;
   EXPECT_NE(repaired.out.find("sphere "), std::string::npos) << repaired.out;
+}
+
+TEST_F(Program, SaysHowFarNumbersOfAFileAreRounded) {
+  // A triangle in normalised bytes, four of them a vertex.
+  nlohmann::json gltf{
+      {"asset", {{"version", "2.0"}}},
+      {"extensionsUsed", {"KHR_mesh_quantization"}},
+      {"buffers",
+       {{{"byteLength", 24},
+         {"uri", "data:application/octet-stream;base64,AAAAAP8AAAAA/wAAAAB/AAAAfwAAAH8A"}}}},
+      {"bufferViews",
+       {{{"buffer", 0}, {"byteLength", 12}, {"byteStride", 4}},
+        {{"buffer", 0}, {"byteOffset", 12}, {"byteLength", 12}, {"byteStride", 4}}}},
+      {"accessors",
+       {{{"bufferView", 0},
+         {"componentType", 5121},
+         {"normalized", true},
+         {"count", 3},
+         {"type", "VEC3"}},
+        {{"bufferView", 1},
+         {"componentType", 5120},
+         {"normalized", true},
+         {"count", 3},
+         {"type", "VEC3"}}}},
+      {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}, {"NORMAL", 1}}}}}}}}}};
+  const auto info = [&](nlohmann::json* json) {
+    std::ofstream(folder_ / "a.gltf") << gltf;
+    const test::ProgramRun run =
+        run_trisect({"info", folder_ / "a.gltf", "--json", folder_ / "a.json"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    std::ifstream stream(folder_ / "a.json");
+    *json = nlohmann::json::parse(stream)["quantisation"];
+    return run.out;
+  };
+  nlohmann::json said;
+  EXPECT_NE(info(&said).find("positions are off by up to 0.0034, normals by 0.39 degrees"),
+            std::string::npos);
+  EXPECT_NEAR(said["positions"], 0.5 * std::sqrt(3.0) / 255.0, 1e-15);
+  EXPECT_NEAR(said["normals_degrees"], 0.39, 0.005);
+  EXPECT_GT(said["phong_moved"], said["positions"]);
+  // Made normals depend on all positions around.
+  gltf["meshes"][0]["primitives"][0]["attributes"].erase("NORMAL");
+  EXPECT_EQ(info(&said).find("phong moves"), std::string::npos);
+  EXPECT_NEAR(said["positions"], 0.5 * std::sqrt(3.0) / 255.0, 1e-15);
+  EXPECT_TRUE(said["phong_moved"].is_null());
+  // Of floats nothing is said.
+  const test::ProgramRun cube =
+      run_trisect({"info", test::asset_path("cube"), "--json", folder_ / "a.json"});
+  EXPECT_EQ(cube.out.find("off by up to"), std::string::npos);
 }
 
 TEST_F(Program, ComplainsAboutDevicesWithCode4) {

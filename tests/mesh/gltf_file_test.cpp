@@ -282,6 +282,29 @@ TEST(GltfFile, TakesMorphTargetsAndSkinsAtRest) {
   EXPECT_EQ(model.positions[2], dvec3(1, 1, 2.5));
 }
 
+// Each morph target adds its own step, as much of it as it is taken; a skin turns and scales the
+// sum.
+TEST(GltfFile, AddsTheStepsOfMorphTargets) {
+  GltfText file;
+  const std::vector<uint16_t> corners{0, 0, 0, 65535, 0, 0, 65535, 65535, 0, 0, 65535, 0};
+  const std::size_t positions = file.add(corners, 5123, "VEC3", 3, true);
+  const std::size_t up = file.add(std::vector<int8_t>{0, 0, 127, 0, 0, 127, 0, 0, 127, 0, 0, 127},
+                                  5120, "VEC3", 3, true);
+  const std::size_t joints = file.add(std::vector<uint8_t>(16, 0), 5121, "VEC4", 4);
+  const std::size_t weights =
+      file.add(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 5126, "VEC4", 4);
+  file.add_mesh(
+      {{"mode", 6},
+       {"attributes", {{"POSITION", positions}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}}},
+       {"targets", {{{"POSITION", up}}}}});
+  file.root()["meshes"][0]["weights"] = {-0.25};
+  file.root()["skins"] = {{{"joints", {1}}}};
+  file.add_node({{"mesh", 0}, {"skin", 0}});
+  file.add_node({{"scale", {3, 3, 3}}});
+  EXPECT_NEAR(parse_bytes(file.text()).position_rounding,
+              3.0 * 0.5 * std::sqrt(3.0) * (1.0 / 65535.0 + 0.25 / 127.0), 1e-15);
+}
+
 TEST(GltfFile, UnpacksMeshopt) {
   std::vector<unsigned char> packed(meshopt_encodeVertexBufferBound(4, 12));
   packed.resize(
@@ -351,6 +374,7 @@ TEST(GltfFile, UnpacksDraco) {
   const PolygonModel model = parse_bytes(file.text());
   ASSERT_EQ(model.sizes.size(), 2U);
   EXPECT_EQ(corner_points(model)[2], dvec3(1, 1, 0));
+  EXPECT_TRUE(std::isinf(model.position_rounding));
   // Half of it is none.
   file.root()["bufferViews"][0]["byteLength"] = packed.size() / 2;
   EXPECT_NE(refusal(file.text()).find("a mesh cannot be unpacked"), std::string::npos);
