@@ -69,5 +69,5 @@ mv "$work/baseline.md" docs/baseline.md
 picture() { build/release/trisect render "assets/$1.obj" --size 480x360 -o "docs/$2.png" "${@:3}" >/dev/null; }
 picture teapot teapot
 picture sphere-20 sphere-20
-picture sphere-20 sphere-20-rank-10 --preset thesis
+picture sphere-20 sphere-20-rank-10 --preset thesis --shading plain
 cat docs/baseline.md

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "language.h"
 #include "shared.h"
+#include "patch_color.glsl"
 
 layout(push_constant) uniform PushBlock { ScreenPush push; };
 layout(std430, binding = BINDING_COLOR) readonly restrict buffer ColorBlock { vec4 colors[]; };
@@ -36,15 +37,6 @@ vec3 heat(float t) {
 
 float on_scale(float x) { return clamp((x - push.low) / max(push.high - push.low, 1e-30), 0.0, 1.0); }
 
-// A colour for a number, such that near numbers have distinct colours: the hue advances by the golden ratio, the brightness
-// by another irrational number.
-vec3 color_of(uint number) {
-  float hue = fract(float(number) * 0.6180339887);
-  float brightness = 0.55 + 0.45 * fract(float(number) * 0.7548776662);
-  vec3 circle = clamp(abs(fract(hue + vec3(0.0, 2.0, 1.0) / 3.0) * 6.0 - 3.0) - 1.0, 0.0, 1.0);
-  return brightness * mix(vec3(1.0), circle, 0.7);
-}
-
 // The colour that shows an output of one pixel of the frame. Outputs other than colours are never averaged over pixels: the
 // mean of normals or patch numbers has no meaning.
 vec3 output_of(uint index) {
@@ -61,7 +53,7 @@ vec3 output_of(uint index) {
   if (push.shown == SHOWN_NORMAL) return 0.5 + 0.5 * pixel.normal_z.xyz;
   if (push.shown == SHOWN_GEOMETRIC) return 0.5 + 0.5 * pixel.geometric_u.xyz;
   if (push.shown == SHOWN_DEPTH) return vec3(1.0 - on_scale(pixel.normal_z.w));
-  if (push.shown == SHOWN_PATCH) return color_of(pixel.triangle);
+  if (push.shown == SHOWN_PATCH) return patch_color(pixel.triangle);
   return vec3(pixel.geometric_u.w, pixel.v, 1.0 - pixel.geometric_u.w - pixel.v);
 }
 

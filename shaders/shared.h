@@ -126,13 +126,15 @@ struct TraceParams {
   // The same rays in the camera's frame: its third axis points ahead, its origin, the anchor, lies
   // on the line of sight near the scene's centre, so that coordinates keep their digits even if the
   // eye is far away. At depth z a ray's x and y are those at depth 0 times 1 + z / anchor.w.
-  vec4 anchor;   // xyz: the anchor, from the scene's origin; w: its distance from the eye
-  vec4 frame_x;  // xyz: unit vector to the right; w: a pixel's width at depth 0
-  vec4 frame_y;  // xyz: unit vector down; w: a pixel's height at depth 0
-  vec4 frame_z;  // xyz: unit vector ahead; w: depth of the near plane
-  vec4 light;    // xyz: unit vector toward the light
-  vec4 grid;     // xyz: origin of the shading grid; w: 1 / its cell size
-  uint width;    // image size in pixels
+  vec4 anchor;      // xyz: the anchor, from the scene's origin; w: its distance from the eye
+  vec4 frame_x;     // xyz: unit vector to the right; w: a pixel's width at depth 0
+  vec4 frame_y;     // xyz: unit vector down; w: a pixel's height at depth 0
+  vec4 frame_z;     // xyz: unit vector ahead; w: depth of the near plane
+  vec4 light;       // xyz: unit vector toward the light
+  vec4 grid;        // xyz: origin of the shading grid; w: 1 / its cell size
+  vec4 color;       // xyz: of the surface, sRGB-encoded, for SHADING_PLAIN and SHADING_GRID
+  vec4 background;  // xyz: the colour where nothing is hit; w: 1: the sky instead
+  uint width;       // image size in pixels
   uint height;
   uint triangle_count;
   uint rank;         // bisection: rank - 1 halvings
@@ -140,6 +142,10 @@ struct TraceParams {
   float resolution;  // bisection: 2^-rank, the acceptance tolerance over the chord's length
   float min_delta;   // bisection: smallest acceptance tolerance, world units
   uint subpatch_count;
+  uint shading;      // SHADING_...
+  float depth_low;   // SHADING_DEPTH: the distance from the eye that is white
+  float depth_high;  // and that which is black
+  uint padding;
 };
 
 // Most subpatches that Newton's method may leave undecided for a ray before the ray has to go
@@ -268,6 +274,14 @@ const float LARGEST = 1152921504606846976.0;  // 2^60
 // than this, 0.014 degrees, there is no displaced patch: the direction's part along the face
 // normal, which is 1, would have less than half of single precision's digits.
 const float LEAST_COSINE = 0.000244140625;  // 2^-12
+
+// What colour a surface has: lit; lit, with the thesis's grid; that of its shading normal, of the
+// number of its triangle, of its distance.
+const uint SHADING_PLAIN = 0u;
+const uint SHADING_GRID = 1u;
+const uint SHADING_NORMAL = 2u;
+const uint SHADING_PATCH = 3u;
+const uint SHADING_DEPTH = 4u;
 
 // SubpatchBounds::cone.w without a cone: more than any cosine.
 const float NO_CONE = 2.0;

@@ -130,6 +130,8 @@ CastHit cast_result(PixelRay ray, Traversal traversal) {
   return result;
 }
 
+#include "pixel_color.glsl"
+
 // The outputs of a pixel with this hit, but for the counts of work, which are 0.
 void shade_pixel(PixelRay ray, Hit hit, OUT(vec4) color, OUT(PixelAovs) aovs) {
   aovs.normal_z = vec4(0.0);
@@ -138,13 +140,13 @@ void shade_pixel(PixelRay ray, Hit hit, OUT(vec4) color, OUT(PixelAovs) aovs) {
   aovs.triangle = hit.triangle;
   aovs.evaluations = 0u;
   aovs.candidates = 0u;
-  color = vec4(sky(ray.view), 0.0);
+  color = vec4(background(ray.view), 0.0);
   if (hit.triangle == NO_TRIANGLE) return;
   vec3 normal = vertex_normal(triangles[hit.triangle], hit.weights);
   vec3 point = ray.anchor + ray.view * (hit.z - (ray.axis + ray.beyond_axis));
   // Bisection hits front faces only, as in the thesis. The robust solver hits both sides, and lights the one that it hits.
   vec3 lit = SOLVER == SOLVER_ROBUST ? facing(normal, ray.view) : normal;
-  color = vec4(shade(lit, point, vec3(params.light), params.grid), 1.0);
+  color = vec4(surface_color(ray.view, normal, lit, point, hit.z, hit.triangle), 1.0);
   if (AOVS) {
     aovs.normal_z = vec4(normalize3(normal), hit.z);
     aovs.geometric_u =

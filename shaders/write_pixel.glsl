@@ -28,7 +28,7 @@ Traversal begin_pixel_traversal(uvec2 pixel, int steps) {
 void write_pixel(uvec2 pixel, PixelRay ray, Traversal traversal) {
   uint index = output_index(pixel);
   if (SHADOWS) {
-    if (traversal.hit.triangle != NO_TRIANGLE) colors[index] = shadow_color();
+    if (traversal.hit.triangle != NO_TRIANGLE) colors[index] = shadow_color(pixels[index], pixel_ray(pixel).view);
     if (COUNTS) {
       pixels[index].evaluations += traversal.counts.evaluations;
       pixels[index].candidates += traversal.counts.candidates;

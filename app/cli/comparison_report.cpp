@@ -52,7 +52,7 @@ ComparisonFiles::ComparisonFiles(const std::string& json, const std::string& dif
 void ComparisonFiles::write(const nlohmann::ordered_json& json, const Frame& a, const Frame& b) {
   if (json_) json_->write(json_text(json));
   if (diff_) {
-    write_image(comparison_picture(a, b), *format_, false, *diff_);
+    write_image(comparison_picture(a, b), *format_, *diff_);
     diff_->commit();
   }
   if (json_) json_->commit();

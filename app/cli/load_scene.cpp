@@ -63,6 +63,11 @@ TraceSettings settings_of(const RenderOptions& options, const Mesh& mesh, const 
   if (options.eye) settings.camera.eye = *options.eye;
   if (options.target) settings.camera.target = *options.target;
   if (options.light) settings.light = *options.light;
+  settings.shading = options.shading.value_or(SHADING_PLAIN);
+  settings.color = options.color.value_or(standard_color(settings.shading));
+  settings.background =
+      options.background.value_or(is_lit(settings.shading) ? Background::sky : Background::color);
+  settings.background_color = options.background_color;
   return settings;
 }
 

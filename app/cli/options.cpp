@@ -66,6 +66,20 @@ glm::dvec3 parse_direction(const std::string& option, const std::string& text) {
   return direction;
 }
 
+glm::dvec3 parse_color(const std::string& option, const std::string& text) {
+  std::string_view rest = text;
+  glm::dvec3 value(0.0);
+  const bool parsed = take_number(rest, value.x) && take_character(rest, ',') &&
+                      take_number(rest, value.y) && take_character(rest, ',') &&
+                      take_number(rest, value.z) && rest.empty();
+  const auto is_share = [](double x) { return x >= 0.0 && x <= 1.0; };
+  if (!parsed || !is_share(value.x) || !is_share(value.y) || !is_share(value.z)) {
+    throw UsageError(fmt::format(
+        "{}: '{}' is not a colour: three numbers from 0 to 1 such as 0.5,0.7,1.", option, text));
+  }
+  return value;
+}
+
 Backend backend_named(const std::string& option, std::string_view name) {
   for (const Backend backend : kBackends) {
     if (name == backend_name(backend)) return backend;

@@ -10,6 +10,7 @@
 #include "app/buffers/kernel_choice.h"
 #include "app/crosscheck/tolerance.h"
 #include "app/dispatch/backend.h"
+#include "app/dispatch/trace_settings.h"
 #include "app/mesh/mesh_builder.h"
 #include "app/surface/shared.h"
 
@@ -35,6 +36,10 @@ struct RenderOptions {
   glm::dvec3 up{0.0, 1.0, 0.0};
   std::optional<glm::dvec3> light;
   bool shadows = false;
+  std::optional<uint> shading;           // SHADING_...; if not given plain
+  std::optional<Background> background;  // if not given the sky behind what is lit, else black
+  glm::dvec3 background_color{0.0};
+  std::optional<glm::dvec3> color;
   double fov = 45.0;
   MeshOptions mesh;
   Backend backend = Backend::vulkan;
@@ -114,6 +119,10 @@ glm::dvec3 parse_triple(const std::string& option, const std::string& text);
 
 // The same, not all 0.
 glm::dvec3 parse_direction(const std::string& option, const std::string& text);
+
+// "0.5,0.7,1": a colour. Throws UsageError, naming the option, for anything but three numbers from
+// 0 to 1.
+glm::dvec3 parse_color(const std::string& option, const std::string& text);
 
 // The back end of that name. Throws UsageError, naming the option, if there is none.
 Backend backend_named(const std::string& option, std::string_view name);

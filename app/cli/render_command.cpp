@@ -40,6 +40,10 @@ int render(const RenderOptions& options) {
   statistics.accel = accel;
   statistics.camera = loaded.settings.camera;
   statistics.light = loaded.settings.light;
+  statistics.shading = loaded.settings.shading;
+  statistics.color = loaded.settings.color;
+  statistics.background = loaded.settings.background;
+  statistics.background_color = loaded.settings.background_color;
   statistics.device = traced.device;
   statistics.driver = traced.driver;
   statistics.patches = loaded.scene.triangles.size();
@@ -52,7 +56,9 @@ int render(const RenderOptions& options) {
   statistics.bvh_ms = loaded.bvh_ms;
   statistics.upload_ms = traced.upload_ms;
 
-  write_image(traced.frame, format, options.evals, image, attributes_of(options, statistics));
+  write_image(
+      traced.frame, format, image,
+      {options.evals, options.background == Background::none, attributes_of(options, statistics)});
   if (stats) stats->write(to_json(options, statistics));
   image.commit();
   if (stats) stats->commit();

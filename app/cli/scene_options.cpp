@@ -16,6 +16,13 @@ void add_gl_path(CLI::App& command, std::optional<std::string>& text) {
       ->type_name("NAME");
 }
 
+uint shading_of(const std::string& name) {
+  for (uint shading = SHADING_PLAIN; shading < SHADING_DEPTH; ++shading) {
+    if (name == shading_name(shading)) return shading;
+  }
+  return SHADING_DEPTH;
+}
+
 // Nothing for "auto".
 std::optional<Accel> accel_of(const std::string& name) {
   for (const Accel accel : {Accel::list, Accel::tiles, Accel::bvh, Accel::rayquery}) {
@@ -68,8 +75,10 @@ void add_view(CLI::App& command, RenderOptions& options, SceneText& text) {
       ->check(one_of({"list", "tiles", "bvh", "rayquery", "auto"}))
       ->type_name("NAME");
   command
-      .add_option("--preset", text.preset,
-                  "thesis: --shell height --solver bisect --rank 10, but for what is given beside")
+      .add_option(
+          "--preset", text.preset,
+          "thesis: --shell height --solver bisect --rank 10 --shading grid, but for what is "
+          "given beside")
       ->check(one_of({"thesis"}))
       ->type_name("NAME");
   command
@@ -89,6 +98,22 @@ void add_view(CLI::App& command, RenderOptions& options, SceneText& text) {
   command.add_flag("--shadows", options.shadows,
                    "Cast a ray from what is seen toward the light: the curved triangles shade "
                    "each other and themselves (robust)");
+  command
+      .add_option("--shading", text.shading,
+                  "What colour the surface has: plain (lit), grid (lit, with the thesis's grid), "
+                  "normal, patch or depth, default plain")
+      ->check(one_of({"plain", "grid", "normal", "patch", "depth"}))
+      ->type_name("NAME");
+  command
+      .add_option("--background", text.background,
+                  "What is behind it: sky, transparent or a colour as R,G,B from 0 to 1, default "
+                  "sky behind plain and grid, else 0,0,0")
+      ->type_name("WHAT");
+  command
+      .add_option("--color", text.color,
+                  "Colour of a plain surface or one with a grid, from 0 to 1, default "
+                  "0.62,0.72,0.82, with a grid 1,1,1")
+      ->type_name("R,G,B");
   command
       .add_option("--fov", options.fov,
                   "Its vertical field of view in degrees, 1 to 170, default 45")
@@ -131,6 +156,7 @@ void parse_scene(const SceneText& text, RenderOptions& options) {
     options.shell = SHELL_HEIGHT;
     options.solver = SOLVER_BISECT;
     options.rank = RenderOptions{}.rank;
+    options.shading = SHADING_GRID;
   }
   if (text.shell) options.shell = shell_of(*text.shell);
   if (text.solver) options.solver = *text.solver == "bisect" ? SOLVER_BISECT : SOLVER_ROBUST;
@@ -145,6 +171,20 @@ void parse_scene(const SceneText& text, RenderOptions& options) {
   }
   if (options.shadows && options.gl_path == GlPath::fragment) {
     throw UsageError("--shadows: it needs --gl-path compute.");
+  }
+  if (text.shading) options.shading = shading_of(*text.shading);
+  if (text.color) options.color = parse_color("--color", *text.color);
+  if (text.background) {
+    options.background = *text.background == "sky"           ? Background::sky
+                         : *text.background == "transparent" ? Background::none
+                                                             : Background::color;
+    if (options.background == Background::color) {
+      options.background_color = parse_color("--background", *text.background);
+    }
+  }
+  if (options.shadows && !is_lit(options.shading.value_or(SHADING_PLAIN))) {
+    throw UsageError(
+        "--shadows: no light falls on a surface with --shading normal, patch or depth.");
   }
   if (text.light) options.light = parse_direction("--light", *text.light);
 }

@@ -24,6 +24,9 @@ struct SceneText {
   std::optional<std::string> target;
   std::optional<std::string> up;
   std::optional<std::string> light;
+  std::optional<std::string> shading;
+  std::optional<std::string> background;
+  std::optional<std::string> color;
 };
 
 // Adds MODEL, which is required, the options of add_view, --gl-path and --device. `options` and

@@ -19,6 +19,14 @@ Spread spread_over(const std::vector<FrameTime>& frames, double FrameTime::*time
   return spread_of(std::move(values));
 }
 
+// As --background has it.
+std::string background_text(const RenderStatistics& statistics) {
+  const glm::dvec3& color = statistics.background_color;
+  return statistics.background == Background::color
+             ? fmt::format("{},{},{}", color.x, color.y, color.z)
+             : background_name(statistics.background);
+}
+
 }  // namespace
 
 Spread spread_of(std::vector<double> values) {
@@ -75,6 +83,9 @@ std::string to_json(const RenderOptions& options, const RenderStatistics& statis
                     {"up", triple(statistics.camera.up)},
                     {"fov", statistics.camera.fov}};
   json["light"] = triple(statistics.light);
+  json["shading"] = shading_name(statistics.shading);
+  json["color"] = triple(statistics.color);
+  json["background"] = background_text(statistics);
   json["crease"] = options.mesh.crease_degrees
                        ? nlohmann::ordered_json(*options.mesh.crease_degrees)
                        : nlohmann::ordered_json();
@@ -111,6 +122,9 @@ std::vector<ImageAttribute> attributes_of(const RenderOptions& options,
                                          {"up", statistics.camera.up},
                                          {"fov", statistics.camera.fov},
                                          {"light", statistics.light},
+                                         {"shading", std::string(shading_name(statistics.shading))},
+                                         {"color", statistics.color},
+                                         {"background", background_text(statistics)},
                                          {"shadows", static_cast<int>(options.shadows)},
                                          {"spp", static_cast<int>(options.spp)},
                                          {"weld", options.mesh.weld},

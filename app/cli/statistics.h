@@ -10,6 +10,7 @@
 #include "app/bake/bake.h"
 #include "app/cli/options.h"
 #include "app/dispatch/camera.h"
+#include "app/dispatch/trace_settings.h"
 #include "app/frame/frame.h"
 #include "app/frame/frame_time.h"
 #include "app/picture/image_file.h"
@@ -49,6 +50,10 @@ struct RenderStatistics {
   Accel accel = Accel::list;
   Camera camera;
   glm::dvec3 light{0.0};  // toward it
+  uint shading = SHADING_PLAIN;
+  glm::dvec3 color{0.0};
+  Background background = Background::sky;
+  glm::dvec3 background_color{0.0};
   std::size_t patches = 0;
   std::size_t hits = 0;
   std::size_t scene_bytes = 0;       // on the device: triangles, subpatch bounds, tree

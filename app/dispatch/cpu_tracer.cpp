@@ -27,7 +27,7 @@ void cast_shadow(Kernel& kernel, const glm::vec3& view, const Stopped& stopped, 
   const Kernel::PixelRay ray = kernel.shadow_ray(met, view);
   in_float::Traversal traversal = kernel.begin_shadow_traversal(met, view, kSteps);
   finish_traversal(kernel, ray, stopped, traversal);
-  if (traversal.hit.triangle != NO_TRIANGLE) color = kernel.shadow_color();
+  if (traversal.hit.triangle != NO_TRIANGLE) color = kernel.shadow_color(met, view);
   met.evaluations += traversal.counts.evaluations;
   met.candidates += traversal.counts.candidates;
 }

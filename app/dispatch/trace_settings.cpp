@@ -1,5 +1,6 @@
 #include "app/dispatch/trace_settings.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace trisect {
@@ -29,9 +30,17 @@ TraceParams make_params(const BakedScene& scene, const TraceSettings& settings) 
   // Four cells of the shading grid to half the diagonal of the vertices' bounding box: the same
   // grid for every surface of a mesh.
   params.grid = vec4(0.0F, 0.0F, 0.0F, static_cast<float>(4.0 / scene.extent));
+  params.shading = settings.shading;
+  params.color = vec4(glm::vec3(settings.color), 0.0F);
+  const bool is_color = settings.background == Background::color;
+  params.background = vec4(is_color ? glm::vec3(settings.background_color) : glm::vec3(0.0F),
+                           settings.background == Background::sky ? 1.0F : 0.0F);
   // The near plane is at a thousandth of the scene's radius, the far plane behind the scene.
   const double near = scene.radius * 1e-3;
   const double far = glm::distance(settings.camera.eye, scene.origin) + scene.radius + near;
+  // The scene's ball, as far as it lies before the eye.
+  params.depth_low = static_cast<float>(std::max(far - near - 2.0 * scene.radius, 0.0));
+  params.depth_high = static_cast<float>(far - near);
   set_rays(settings.camera, scene.origin, scene.radius, near, far, params);
   return params;
 }

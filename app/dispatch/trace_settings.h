@@ -11,6 +11,46 @@
 
 namespace trisect {
 
+// What is seen behind the surface.
+enum class Background {
+  sky,    // the thesis's
+  color,  // TraceSettings::background_color
+  none    // black, and where it shows A is 0
+};
+
+// Names on the command line and in JSON.
+constexpr const char* shading_name(uint shading) {
+  switch (shading) {
+    case SHADING_PLAIN:
+      return "plain";
+    case SHADING_GRID:
+      return "grid";
+    case SHADING_NORMAL:
+      return "normal";
+    case SHADING_PATCH:
+      return "patch";
+    default:
+      return "depth";
+  }
+}
+
+constexpr const char* background_name(Background background) {
+  return background == Background::sky    ? "sky"
+         : background == Background::none ? "transparent"
+                                          : "color";
+}
+
+// The surface's colour if nobody chooses one: white under the thesis's grid, as there, else a light
+// blue, which its warm sky sets off.
+inline glm::dvec3 standard_color(uint shading) {
+  return shading == SHADING_GRID ? glm::dvec3(1.0) : glm::dvec3(0.62, 0.72, 0.82);
+}
+
+// Whether light falls on the surface, and with it shadows.
+inline bool is_lit(uint shading) {
+  return shading == SHADING_PLAIN || shading == SHADING_GRID;
+}
+
 struct TraceSettings {
   uint32_t width = 800;  // of the image in pixels
   uint32_t height = 600;
@@ -22,6 +62,11 @@ struct TraceSettings {
   // world units, like the listing's constant 1e-3, so it suits models of a size of about 1.
   double min_delta = 1e-4;
   glm::dvec3 light{0.35, 0.8, 0.5};  // toward the light, any length
+  uint shading = SHADING_PLAIN;
+  // Colours are sRGB-encoded, from 0 to 1. The surface's counts where the shading is lit.
+  glm::dvec3 color = standard_color(SHADING_PLAIN);
+  Background background = Background::sky;
+  glm::dvec3 background_color{0.0};
 };
 
 // Settings for an image of the whole mesh with the default camera of `trisect render`.

@@ -82,7 +82,11 @@ bool cast_oracle_shadows(const OracleFrame& answers, const BakedScene& scene,
       if (!answers.pixels[i].hit) continue;
       const dvec3 view = oracle_pixel_ray(params, x, y).ray.direction;
       if (oracle_shadow(oracle, scene, params, root.triangle, root.weights, view).hit) {
-        frame.colors[i] = kernel.shadow_color();
+        PixelAovs seen{};
+        const dvec3 normal =
+            in_double::vertex_normal(to_double(scene.triangles[root.triangle]), root.weights);
+        seen.normal_z = vec4(glm::vec3(glm::normalize(normal)), 0.0F);
+        frame.colors[i] = kernel.shadow_color(seen, glm::vec3(view));
       }
     }
   };

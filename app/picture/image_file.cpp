@@ -17,19 +17,19 @@ ImageFormat image_format(const std::filesystem::path& path) {
   throw UsageError(path.string() + ": an image's name must end in .png or .exr.");
 }
 
-void write_image(const Frame& frame, ImageFormat format, bool evals, const AtomicFile& file,
-                 const std::vector<ImageAttribute>& attributes) {
+void write_image(const Frame& frame, ImageFormat format, const AtomicFile& file,
+                 const ImageContents& contents) {
   if (format == ImageFormat::png) {
-    write_png(frame, file);
+    write_png(frame, file, contents.alpha);
   } else {
-    write_exr(frame, evals, file, attributes);
+    write_exr(frame, contents.evals, file, contents.attributes);
   }
 }
 
 void save_image(const Frame& frame, const std::filesystem::path& path, bool evals) {
   const ImageFormat format = image_format(path);
   AtomicFile file(path);
-  write_image(frame, format, evals, file);
+  write_image(frame, format, file, {.evals = evals});
   file.commit();
 }
 

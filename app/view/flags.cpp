@@ -63,6 +63,13 @@ std::string flags_of(const RenderOptions& options) {
   add("--fov", number(options.fov));
   if (options.light) add("--light", triple(*options.light));
   if (options.shadows) text += " --shadows";
+  if (options.shading) add("--shading", shading_name(*options.shading));
+  if (options.color) add("--color", triple(*options.color));
+  if (options.background) {
+    add("--background", *options.background == Background::color
+                            ? triple(options.background_color)
+                            : background_name(*options.background));
+  }
   if (options.spp != 1) add("--spp", std::to_string(options.spp));
   const MeshOptions& mesh = options.mesh;
   if (mesh.crease_degrees) add("--crease", number(*mesh.crease_degrees));
@@ -76,6 +83,9 @@ RenderOptions with_flags(const RenderOptions& base, const std::string& text) {
   options.shadows = false;
   options.spp = 1;
   options.accel.reset();
+  options.shading.reset();
+  options.color.reset();
+  options.background.reset();
   std::vector<std::string> words = words_of(text);
   if (names_command(words)) words.erase(words.begin(), words.begin() + 2);
   CLI::App command;

@@ -13,10 +13,10 @@ namespace trisect::view {
 std::string flags_of(const RenderOptions& options);
 
 // `base` with the options that are given in `text`. Words are separated by white space; "trisect
-// render" at the beginning, a MODEL and -o FILE are ignored. Without --shadows, --spp or --accel
-// the result has no shadows, one ray per pixel or accel auto, whatever `base` has. Throws
-// UsageError, naming what is wrong, for an option that is neither --spp nor one of add_view(), and
-// for values that `trisect render` would refuse.
+// render" at the beginning, a MODEL and -o FILE are ignored. Without --shadows, --spp, --accel,
+// --shading, --color or --background the result has no shadows, one ray per pixel, accel auto or
+// the standard colours, whatever `base` has. Throws UsageError, naming what is wrong, for an option
+// that is neither --spp nor one of add_view(), and for values that `trisect render` would refuse.
 RenderOptions with_flags(const RenderOptions& base, const std::string& text);
 
 }  // namespace trisect::view

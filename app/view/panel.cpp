@@ -96,6 +96,21 @@ void choose_surface(Settings& settings, const Facts& facts) {
   ImGui::Checkbox("shadows", &render.shadows);
 }
 
+// What colours the surface has. Shadows need light.
+void choose_shading(Settings& settings) {
+  RenderOptions& render = settings.render;
+  const uint before = render.shading.value_or(SHADING_PLAIN);
+  uint shading = before;
+  choose("shading", shading, std::array{"plain", "grid", "normal", "patch", "depth"});
+  if (shading != before) render.shading = shading;
+  if (!is_lit(shading)) {
+    render.shadows = false;
+    return;
+  }
+  glm::vec3 color(render.color.value_or(standard_color(shading)));
+  if (ImGui::ColorEdit3("color", &color.x)) render.color = glm::dvec3(color);
+}
+
 void choose_light(Settings& settings) {
   glm::dvec3 light = settings.render.light.value_or(glm::dvec3(0.35, 0.8, 0.5));
   bool changed = slide("light x", light.x, -1.0, 1.0, "%.2f");
@@ -206,6 +221,7 @@ Requests build_panel(Settings& settings, const Facts& facts) {
   if (!facts.message.empty()) text(facts.message);
   ImGui::Separator();
   choose_surface(settings, facts);
+  choose_shading(settings);
   choose_light(settings);
   ImGui::Checkbox("orbit", &settings.orbit);
   ImGui::Separator();

@@ -25,7 +25,7 @@ void save_picture(const gpu::Device& device, const Mesh& mesh, const BakedScene&
   Frame frame;
   tracer.render(params, frame);
   frame = averaged(std::move(frame), samples_across(options.spp));
-  write_image(frame, format, false, target);
+  write_image(frame, format, target, {.alpha = options.background == Background::none});
   target.commit();
 }
 

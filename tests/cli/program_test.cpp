@@ -56,9 +56,10 @@ TEST_F(Program, WritesStatistics) {
 TEST_F(Program, SaysInTheHeaderWhatMakesThePicture) {
   for (const std::vector<std::string>& options :
        {std::vector<std::string>{"--surface", "sphere", "--fov", "33.3", "--crease", "70",
-                                 "--shadows", "--light", "0.1,0.7,0.3", "--spp", "4"},
-        std::vector<std::string>{"--backend", "opengl", "--gl-path", "fragment", "--weld",
-                                 "0.01"}}) {
+                                 "--shadows", "--light", "0.1,0.7,0.3", "--spp", "4",
+                                 "--background", "0.3,0.1,0.7"},
+        std::vector<std::string>{"--backend", "opengl", "--gl-path", "fragment", "--shading",
+                                 "patch", "--background", "transparent", "--weld", "0.01"}}) {
     const test::ProgramRun first = render(options, "a.exr");
     ASSERT_EQ(first.exit_code, 0) << first.err;
     std::map<std::string, std::string> said = test::exr_attributes(folder_ / "a.exr");
@@ -67,8 +68,9 @@ TEST_F(Program, SaysInTheHeaderWhatMakesThePicture) {
     EXPECT_NE(said["driver"], "");
     std::vector<std::string> again{"render",          said["model"], "-o",
                                    folder_ / "b.exr", "--size",      "32x24"};
-    for (const std::string option : {"surface", "shell", "solver", "rank", "accel", "alpha", "eye",
-                                     "target", "up", "fov", "light", "spp", "weld", "backend"}) {
+    for (const std::string option :
+         {"surface", "shell", "solver", "rank", "accel", "alpha", "eye", "target", "up", "fov",
+          "light", "spp", "weld", "backend", "shading", "color", "background"}) {
       ASSERT_EQ(said.count(option), 1U) << option;
       again.push_back("--" + option + "=" + said[option]);
     }
@@ -157,6 +159,12 @@ TEST_F(Program, PicksAnAccelerationAndSaysWhich) {
 
 TEST_F(Program, LightsFromADirection) {
   expect_complaint(render({"--light", "0,0,0"}), 2, "no direction");
+  expect_complaint(render({"--shading", "shiny"}), 2, "--shading: 'shiny' is not one of: plain");
+  for (const char* color : {"", "1", "0,0,1.01", "0,-0.1,0", "nan,0,0", "0,0,0,0", "blue"}) {
+    expect_complaint(render({"--color", color}), 2, "is not a colour");
+    expect_complaint(render({"--background", color}), 2, "is not a colour");
+  }
+  expect_complaint(render({"--shadows", "--shading", "depth"}), 2, "no light falls");
   ASSERT_EQ(render({"--light", "0,0,1"}, "front.exr").exit_code, 0);
   ASSERT_EQ(render({"--light", "0,0,-5"}, "back.exr").exit_code, 0);
   const Frame front = test::read_exr(folder_ / "front.exr");
@@ -171,7 +179,9 @@ TEST_F(Program, CastsShadows) {
   expect_complaint(render({"--shadows", "--gl-path", "fragment"}), 2, "--gl-path compute");
   // From behind: what the camera faces is all in shadow.
   for (const char* backend : {"vulkan", "opengl", "cpu", "oracle"}) {
-    ASSERT_EQ(render({"--light", "0,-1,-1", "--shadows", "--backend", backend}, "a.exr").exit_code,
+    ASSERT_EQ(render({"--light", "0,-1,-1", "--shadows", "--shading", "grid", "--backend", backend},
+                     "a.exr")
+                  .exit_code,
               0);
     const Frame image = test::read_exr(folder_ / "a.exr");
     const vec4 middle = image.colors.at(12U * 32U + 16U);

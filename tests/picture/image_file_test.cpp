@@ -49,6 +49,30 @@ TEST(Srgb, DecodesTheStandardsValues) {
   EXPECT_NEAR(linear_from_srgb(0.5F), 0.2140411F, 1e-7F);
 }
 
+// A pixel of which a quarter of the rays met something red has that red, and a quarter for alpha.
+TEST(WritePng, WritesColoursThatAreNotMultipliedWithAlpha) {
+  const test::TemporaryFolder folder;
+  Frame frame;
+  frame.resize(3, 1, false);
+  frame.colors = {vec4(0.8F, 0.4F, 0.0F, 1.0F), vec4(0.0F), vec4(0.0F)};
+  for (int k = 0; k < 3; ++k) {
+    frame.colors[1][k] = srgb_from_linear(linear_from_srgb(frame.colors[0][k]) * 0.25F);
+  }
+  frame.colors[1].w = 0.25F;
+  AtomicFile file(folder / "a.png");
+  write_png(frame, file, true);
+  file.commit();
+
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  ASSERT_NE(png_image_begin_read_from_file(&image, (folder / "a.png").c_str()), 0);
+  EXPECT_EQ(image.format & PNG_FORMAT_FLAG_ALPHA, PNG_FORMAT_FLAG_ALPHA);
+  image.format = PNG_FORMAT_RGBA;
+  std::vector<uint8_t> bytes(PNG_IMAGE_SIZE(image));
+  ASSERT_NE(png_image_finish_read(&image, nullptr, bytes.data(), 0, nullptr), 0);
+  EXPECT_EQ(bytes, (std::vector<uint8_t>{204, 102, 0, 255, 204, 102, 0, 64, 0, 0, 0, 0}));
+}
+
 TEST(WritePng, WritesTheFramesBytesRowByRow) {
   const test::TemporaryFolder folder;
   const Frame frame = sample(false);

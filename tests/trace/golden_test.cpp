@@ -28,7 +28,10 @@ class GoldenFrame : public test::GpuTest, public ::testing::WithParamInterface<G
 Frame fresh(const Golden& golden) {
   const Mesh mesh = test::load_asset(golden.model);
   const BakedScene scene = bake(mesh, {golden.surface, 0.65, SHELL_HEIGHT});
-  return test::trace(scene, test::framed(mesh, scene, 48, 36, 24));
+  TraceSettings settings = test::framed(mesh, scene, 48, 36, 24);
+  settings.shading = SHADING_GRID;
+  settings.color = standard_color(SHADING_GRID);
+  return test::trace(scene, settings);
 }
 
 // A message about the first difference of a frame from a golden one, or nothing. `kept` is from a

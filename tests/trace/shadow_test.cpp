@@ -45,6 +45,9 @@ Lit lit_from_side(const Mesh& mesh, const SurfaceChoice& choice, uint32_t width,
   TraceSettings settings = test::framed(mesh, lit.scene, width, height, 10);
   settings.solver = SOLVER_ROBUST;
   settings.light = dvec3(1.0, 0.2, 0.4);
+  // In shadow everything has the same colour then.
+  settings.shading = SHADING_GRID;
+  settings.color = standard_color(SHADING_GRID);
   lit.params = make_params(lit.scene, settings);
   return lit;
 }

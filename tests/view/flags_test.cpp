@@ -42,6 +42,10 @@ void expect_same(const RenderOptions& a, const RenderOptions& b) {
   expect_same(a.up, b.up);
   expect_same(a.light, b.light);
   EXPECT_EQ(a.shadows, b.shadows);
+  EXPECT_EQ(a.shading, b.shading);
+  EXPECT_EQ(a.color, b.color);
+  EXPECT_EQ(a.background, b.background);
+  EXPECT_EQ(a.background_color, b.background_color);
   EXPECT_EQ(bits(a.fov), bits(b.fov)) << a.fov;
   ASSERT_EQ(a.mesh.crease_degrees.has_value(), b.mesh.crease_degrees.has_value());
   if (a.mesh.crease_degrees) {
@@ -82,6 +86,10 @@ RenderOptions all_options() {
   options.up = glm::dvec3(-0.1, -0.2, 0.1 + 0.2);
   options.light = glm::dvec3(-1.0, 2.0, -3.0);
   options.shadows = true;
+  options.shading = SHADING_GRID;
+  options.color = glm::dvec3(0.1, 0.0, 1.0);
+  options.background = Background::color;
+  options.background_color = glm::dvec3(1.0 / 3.0, 0.5, 1.0);
   options.fov = 100.0 / 3.0;
   options.mesh = {0.1, 1e-7, true};
   options.spp = 16;
@@ -98,7 +106,8 @@ TEST(Flags, AreShort) {
             "--size 1x16384 --surface sphere --alpha 0.3333333333333333 --shell height "
             "--solver robust --accel bvh --eye -0.3333333333333333,0.1,1e-300 "
             "--target -0,-1000000000000,5e-324 --up -0.1,-0.2,0.30000000000000004 "
-            "--fov 33.333333333333336 --light -1,2,-3 --shadows --spp 16 --crease 0.1 --weld 1e-07 "
+            "--fov 33.333333333333336 --light -1,2,-3 --shadows --shading grid --color 0.1,0,1 "
+            "--background 0.3333333333333333,0.5,1 --spp 16 --crease 0.1 --weld 1e-07 "
             "--repair");
 }
 
