@@ -30,4 +30,4 @@ Traversal begin_shadow_traversal(PixelAovs hit, vec3 view, int steps) {
 }
 
 // The colour of a pixel in shadow; lit pixels keep theirs.
-vec4 shadow_color(PixelAovs hit, vec3 view) { return vec4(color_in_shadow(facing(vec3(hit.normal_z), view)), 1.0); }
+vec4 shadow_color(PixelAovs hit, vec3 view) { return vec4(color_in_shadow(facing(vec3(hit.normal_z), view), hit.triangle), 1.0); }

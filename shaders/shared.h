@@ -8,7 +8,8 @@
 
 // A baked triangle, 192 bytes: the structure of the thesis, member for member.
 struct Triangle {
-  vec4 Position[3];    // xyz: vertex
+  vec4 Position[3];  // xyz: vertex; w of the three: red, green and blue of the triangle, negative
+                     // if it has no colour of its own
   vec4 Normal[3];      // xyz: unit vertex normal
   vec4 TriNormal;      // xyz: unit face normal n; w: length of the longest edge
   vec4 NormDot;        // component i: dot(Normal[i], n), but no nearer to 0 than LEAST_COSINE
@@ -126,13 +127,14 @@ struct TraceParams {
   // The same rays in the camera's frame: its third axis points ahead, its origin, the anchor, lies
   // on the line of sight near the scene's centre, so that coordinates keep their digits even if the
   // eye is far away. At depth z a ray's x and y are those at depth 0 times 1 + z / anchor.w.
-  vec4 anchor;      // xyz: the anchor, from the scene's origin; w: its distance from the eye
-  vec4 frame_x;     // xyz: unit vector to the right; w: a pixel's width at depth 0
-  vec4 frame_y;     // xyz: unit vector down; w: a pixel's height at depth 0
-  vec4 frame_z;     // xyz: unit vector ahead; w: depth of the near plane
-  vec4 light;       // xyz: unit vector toward the light
-  vec4 grid;        // xyz: origin of the shading grid; w: 1 / its cell size
-  vec4 color;       // xyz: of the surface, sRGB-encoded, for SHADING_PLAIN and SHADING_GRID
+  vec4 anchor;   // xyz: the anchor, from the scene's origin; w: its distance from the eye
+  vec4 frame_x;  // xyz: unit vector to the right; w: a pixel's width at depth 0
+  vec4 frame_y;  // xyz: unit vector down; w: a pixel's height at depth 0
+  vec4 frame_z;  // xyz: unit vector ahead; w: depth of the near plane
+  vec4 light;    // xyz: unit vector toward the light
+  vec4 grid;     // xyz: origin of the shading grid; w: 1 / its cell size
+  vec4 color;    // xyz: of the surface, sRGB-encoded, for SHADING_PLAIN and SHADING_GRID; w: 1: of
+                 // triangles that have no colour of their own
   vec4 background;  // xyz: the colour where nothing is hit; w: 1: the sky instead
   uint width;       // image size in pixels
   uint height;

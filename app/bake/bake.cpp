@@ -126,6 +126,7 @@ BakedScene bake(const Mesh& mesh, const SurfaceChoice& choice) {
         2.0 * scene.extent, smallest, largest));
   }
   scene.triangles.resize(mesh.triangles.size());
+  scene.has_colors = !mesh.colors.empty();
   parallel_chunks(mesh.triangles.size(), kChunk, [&](std::size_t first, std::size_t end) {
     for (std::size_t k = first; k < end; ++k) {
       const MeshTriangle& t = mesh.triangles[k];
@@ -136,6 +137,8 @@ BakedScene bake(const Mesh& mesh, const SurfaceChoice& choice) {
         normals[i] = mesh.normals[t.normal[i]];
       }
       scene.triangles[k] = bake_triangle(positions, normals, choice);
+      if (!scene.has_colors) continue;
+      for (int i = 0; i < 3; ++i) scene.triangles[k].Position[i].w = mesh.colors[k][i];
     }
   });
   for (const Triangle& tri : scene.triangles) {

@@ -19,6 +19,7 @@ struct BakedScene {
   std::vector<Triangle> triangles;         // in the order of the mesh
   std::vector<SubpatchBounds> subpatches;  // for the robust solver; empty if it is not used
   std::vector<BvhNode> bvh;                // over the subpatches; empty if none is needed
+  bool has_colors = false;                 // some triangles have colours, in Position[].w
   double extent = 0.0;                     // half the diagonal of the bounding box
   double radius = 0.0;  // of the ball about `origin` that contains every triangle's Domain
 };

@@ -168,6 +168,7 @@ ordered_json json_of(const InfoOptions& options, const Model& model) {
                     {"triangles", report.triangles},
                     {"vertices", report.vertices},
                     {"degenerate_dropped", report.degenerate_dropped},
+                    {"colored", report.colored},
                     {"notes", report.notes},
                     {"bounds", {{"low", triple(facts.low)}, {"high", triple(facts.high)}}},
                     {"radius", facts.radius},

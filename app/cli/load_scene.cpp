@@ -64,6 +64,7 @@ TraceSettings settings_of(const RenderOptions& options, const Mesh& mesh, const 
   if (options.target) settings.camera.target = *options.target;
   if (options.light) settings.light = *options.light;
   settings.shading = options.shading.value_or(SHADING_PLAIN);
+  settings.own_colors = !options.color;
   settings.color = options.color.value_or(standard_color(settings.shading));
   settings.background =
       options.background.value_or(is_lit(settings.shading) ? Background::sky : Background::color);

@@ -41,7 +41,6 @@ int render(const RenderOptions& options) {
   statistics.camera = loaded.settings.camera;
   statistics.light = loaded.settings.light;
   statistics.shading = loaded.settings.shading;
-  statistics.color = loaded.settings.color;
   statistics.background = loaded.settings.background;
   statistics.background_color = loaded.settings.background_color;
   statistics.device = traced.device;

@@ -111,8 +111,8 @@ void add_view(CLI::App& command, RenderOptions& options, SceneText& text) {
       ->type_name("WHAT");
   command
       .add_option("--color", text.color,
-                  "Colour of a plain surface or one with a grid, from 0 to 1, default "
-                  "0.62,0.72,0.82, with a grid 1,1,1")
+                  "Colour of a plain surface or one with a grid, from 0 to 1, default those of the "
+                  "file, or 0.62,0.72,0.82, with a grid 1,1,1")
       ->type_name("R,G,B");
   command
       .add_option("--fov", options.fov,

@@ -84,7 +84,7 @@ std::string to_json(const RenderOptions& options, const RenderStatistics& statis
                     {"fov", statistics.camera.fov}};
   json["light"] = triple(statistics.light);
   json["shading"] = shading_name(statistics.shading);
-  json["color"] = triple(statistics.color);
+  json["color"] = options.color ? triple(*options.color) : nlohmann::ordered_json();
   json["background"] = background_text(statistics);
   json["crease"] = options.mesh.crease_degrees
                        ? nlohmann::ordered_json(*options.mesh.crease_degrees)
@@ -123,7 +123,6 @@ std::vector<ImageAttribute> attributes_of(const RenderOptions& options,
                                          {"fov", statistics.camera.fov},
                                          {"light", statistics.light},
                                          {"shading", std::string(shading_name(statistics.shading))},
-                                         {"color", statistics.color},
                                          {"background", background_text(statistics)},
                                          {"shadows", static_cast<int>(options.shadows)},
                                          {"spp", static_cast<int>(options.spp)},
@@ -132,6 +131,7 @@ std::vector<ImageAttribute> attributes_of(const RenderOptions& options,
   if (options.backend == Backend::opengl) {
     attributes.push_back({"gl_path", std::string(gl_path_name(options.gl_path))});
   }
+  if (options.color) attributes.push_back({"color", *options.color});
   if (options.mesh.crease_degrees) attributes.push_back({"crease", *options.mesh.crease_degrees});
   return attributes;
 }

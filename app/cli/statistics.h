@@ -51,7 +51,6 @@ struct RenderStatistics {
   Camera camera;
   glm::dvec3 light{0.0};  // toward it
   uint shading = SHADING_PLAIN;
-  glm::dvec3 color{0.0};
   Background background = Background::sky;
   glm::dvec3 background_color{0.0};
   std::size_t patches = 0;

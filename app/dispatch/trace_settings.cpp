@@ -31,7 +31,8 @@ TraceParams make_params(const BakedScene& scene, const TraceSettings& settings) 
   // grid for every surface of a mesh.
   params.grid = vec4(0.0F, 0.0F, 0.0F, static_cast<float>(4.0 / scene.extent));
   params.shading = settings.shading;
-  params.color = vec4(glm::vec3(settings.color), 0.0F);
+  const bool own = settings.own_colors && scene.has_colors && settings.shading == SHADING_PLAIN;
+  params.color = vec4(glm::vec3(settings.color), own ? 1.0F : 0.0F);
   const bool is_color = settings.background == Background::color;
   params.background = vec4(is_color ? glm::vec3(settings.background_color) : glm::vec3(0.0F),
                            settings.background == Background::sky ? 1.0F : 0.0F);

@@ -65,6 +65,7 @@ struct TraceSettings {
   uint shading = SHADING_PLAIN;
   // Colours are sRGB-encoded, from 0 to 1. The surface's counts where the shading is lit.
   glm::dvec3 color = standard_color(SHADING_PLAIN);
+  bool own_colors = true;  // triangles that have colours show those, on a plain surface
   Background background = Background::sky;
   glm::dvec3 background_color{0.0};
 };

@@ -1,5 +1,6 @@
 #include "app/mesh/assimp_file.h"
 
+#include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 
 #include <assimp/Importer.hpp>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -36,8 +38,13 @@ dvec3 vector_from(const aiVector3D& v) {
 // Puts the meshes of a scene together.
 class AssimpScene {
  public:
-  AssimpScene(const aiScene& scene, bool takes_normals, const std::string& name)
-      : scene_(scene), takes_normals_(takes_normals), name_(name) {}
+  // format: as Assimp names it. STL's normals are those of facets. Of the three formats FBX alone
+  // has materials; Assimp makes one itself for the others.
+  AssimpScene(const aiScene& scene, const std::string& format, const std::string& name)
+      : scene_(scene),
+        takes_normals_(format != "stl"),
+        takes_materials_(format == "fbx"),
+        name_(name) {}
 
   PolygonModel assemble() {
     // Without recursion, which a long chain of nodes could make too deep.
@@ -83,7 +90,8 @@ class AssimpScene {
         throw InputError(fmt::format("{}: vertex {} is not three finite numbers.", name_, i));
       }
     }
-    add_group(mesh.mName.C_Str(), model_.sizes.size(), model_.groups);
+    const std::size_t first_face = model_.sizes.size();
+    add_group(mesh.mName.C_Str(), first_face, model_.groups);
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
       if (face.mNumIndices < 3) {
@@ -101,11 +109,39 @@ class AssimpScene {
              has_normals ? static_cast<uint32_t>(first_normal + i) : PolygonCorner::no_normal});
       }
       model_.sizes.push_back(face.mNumIndices);
+      if (mesh.HasVertexColors(0)) {
+        add_color(model_.sizes.size() - 1, color_of(mesh, face), model_);
+      }
     }
+    if (!mesh.HasVertexColors(0)) add_color(first_face, material_color(mesh), model_);
+  }
+
+  // The mean of a face's vertices.
+  static glm::vec3 color_of(const aiMesh& mesh, const aiFace& face) {
+    glm::vec3 sum(0.0F);
+    for (unsigned k = 0; k < face.mNumIndices; ++k) {
+      const aiColor4D& color = mesh.mColors[0][face.mIndices[k]];
+      sum += glm::vec3(color.r, color.g, color.b);
+    }
+    return sum / static_cast<float>(face.mNumIndices);
+  }
+
+  // If the file has a material for the mesh whose colour no texture changes.
+  [[nodiscard]] std::optional<glm::vec3> material_color(const aiMesh& mesh) const {
+    if (!takes_materials_ || mesh.mMaterialIndex >= scene_.mNumMaterials) return std::nullopt;
+    const aiMaterial& material = *scene_.mMaterials[mesh.mMaterialIndex];
+    aiColor3D color;
+    if (material.GetName() == aiString(AI_DEFAULT_MATERIAL_NAME) ||
+        material.GetTextureCount(aiTextureType_DIFFUSE) > 0 ||
+        material.Get(AI_MATKEY_COLOR_DIFFUSE, color) != aiReturn_SUCCESS) {
+      return std::nullopt;
+    }
+    return glm::vec3(color.r, color.g, color.b);
   }
 
   const aiScene& scene_;
   bool takes_normals_;
+  bool takes_materials_;
   const std::string& name_;
   PolygonModel model_;
   std::size_t points_ = 0;
@@ -131,7 +167,7 @@ PolygonModel parse_by_assimp(std::string bytes, const std::string& format,
     // Two copies of a model are enough.
     bytes = std::string();
     malloc_trim(0);
-    model = AssimpScene(*scene, format != "stl", name).assemble();
+    model = AssimpScene(*scene, format, name).assemble();
   }
   // Assimp allocates each face; what those leave is of no use to the large arrays that follow.
   malloc_trim(0);

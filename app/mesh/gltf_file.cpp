@@ -321,6 +321,7 @@ class GltfScene {
     normals.reset();
     const std::vector<uint32_t> indices = primitive.indices(count);
     const std::size_t triangles = mode == kTriangles ? indices.size() / 3 : indices.size();
+    const std::size_t first_triangle = model_.sizes.size();
     make_room(triangles, model_.sizes);
     make_room(3 * triangles, model_.corners);
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
@@ -345,6 +346,21 @@ class GltfScene {
         }
       }
     }
+    add_color(first_triangle, color_of(object), model_);
+  }
+
+  // Of a primitive, if its material says one that no texture changes.
+  [[nodiscard]] std::optional<glm::vec3> color_of(const json& primitive) const {
+    if (!primitive.contains("material")) return std::nullopt;
+    const json& material = data_.element("materials", whole(primitive.at("material")));
+    const auto metal = material.find("pbrMetallicRoughness");
+    if (metal == material.end() || metal->contains("baseColorTexture") ||
+        !metal->contains("baseColorFactor")) {
+      return std::nullopt;
+    }
+    const auto factor = metal->at("baseColorFactor").get<std::vector<double>>();
+    if (factor.size() < 3) return std::nullopt;
+    return srgb_color({factor[0], factor[1], factor[2]});
   }
 
   // Adds the morph targets' parts to an attribute.

@@ -20,6 +20,8 @@ struct Mesh {
   std::vector<glm::dvec3> positions;
   std::vector<glm::dvec3> normals;  // unit length
   std::vector<MeshTriangle> triangles;
+  // Of each triangle, sRGB-encoded from 0 to 1, negative where it has none; empty if none has one.
+  std::vector<glm::vec3> colors;
 };
 
 // Normals that are no farther apart count as one: files often hold them in single precision or with
@@ -44,6 +46,7 @@ struct MeshReport {
   std::size_t non_manifold_edges = 0;  // of three triangles or more
   std::size_t flipped_edges = 0;       // of two triangles with opposite winding
   std::size_t turned = 0;              // triangles whose winding was repaired
+  std::size_t colored = 0;             // triangles with a colour of their own
   std::size_t normals_behind = 0;      // corners whose normal points to the back of their triangle
   std::vector<std::string> notes;      // of PolygonModel
 };

@@ -216,9 +216,10 @@ void release(std::vector<Item>& items) {
 }
 
 // The triangles of all polygons, but those without area, which `dropped` counts. welded: for each
-// position the one that stands for it.
+// position the one that stands for it. colors: gets those of the triangles, if the model has any.
 std::vector<ModelTriangle> triangles_of(const PolygonModel& model,
-                                        const std::vector<uint32_t>& welded, std::size_t& dropped) {
+                                        const std::vector<uint32_t>& welded, std::size_t& dropped,
+                                        std::vector<glm::vec3>& colors) {
   std::size_t count = 0;
   for (const uint32_t size : model.sizes) count += size - 2;
   std::vector<ModelTriangle> triangles;
@@ -249,6 +250,7 @@ std::vector<ModelTriangle> triangles_of(const PolygonModel& model,
         ++dropped;
       } else {
         triangles.push_back(t);
+        if (!model.colors.empty()) colors.push_back(model.colors[face]);
       }
     }
   }
@@ -320,12 +322,14 @@ BuiltMesh build_mesh(PolygonModel model, const std::string& name, const MeshOpti
   MeshReport& report = built.report;
   std::vector<uint32_t> welded =
       options.weld > 0.0 ? weld(model.positions, options.weld) : weld(model.positions);
-  std::vector<ModelTriangle> triangles = triangles_of(model, welded, report.degenerate_dropped);
+  std::vector<ModelTriangle> triangles =
+      triangles_of(model, welded, report.degenerate_dropped, mesh.colors);
   if (triangles.empty()) throw InputError(name + ": every face has zero area.");
   release(welded);
   release(model.corners);
   release(model.sizes);
   release(model.smoothing_groups);
+  release(model.colors);
   mesh.positions = used_positions(model.positions, triangles);
   release(model.positions);
   if (options.repair) report.turned = repair_winding(triangles, mesh.positions);
@@ -344,6 +348,10 @@ BuiltMesh build_mesh(PolygonModel model, const std::string& name, const MeshOpti
   malloc_trim(0);  // what is free between what is used: as much as the mesh
 
   report.triangles = mesh.triangles.size();
+  report.colored = static_cast<std::size_t>(
+      std::count_if(mesh.colors.begin(), mesh.colors.end(),
+                    [](const glm::vec3& color) { return color.x >= 0.0F; }));
+  if (report.colored == 0) release(mesh.colors);
   report.vertices = mesh.positions.size();
   report.normals = from_file == 3 * mesh.triangles.size() ? NormalSource::file
                    : from_file == 0                       ? NormalSource::welded

@@ -100,7 +100,7 @@ PolygonModel read_model(const std::filesystem::path& path, ModelFormat* format) 
     case ModelFormat::obj:
       break;
   }
-  return parse_obj(bytes, path.string());
+  return parse_obj(bytes, path.string(), folder_of(path));
 }
 
 }  // namespace trisect

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <streambuf>
 #include <system_error>
@@ -16,6 +17,7 @@
 
 #include "app/base/error.h"
 #include "app/mesh/file_bytes.h"
+#include "app/mesh/obj_materials.h"
 
 namespace trisect {
 namespace {
@@ -38,6 +40,8 @@ struct OrderedText {
   std::vector<uint32_t> smoothing_groups;  // of each face
   std::vector<PolygonGroup> objects;       // "o"
   std::vector<PolygonGroup> groups;        // "g"
+  std::vector<PolygonGroup> materials;     // "usemtl"
+  std::vector<std::string> libraries;      // "mtllib"
   bool has_groups = false;
   Counts counts;
 };
@@ -160,6 +164,14 @@ class Lines {
   std::size_t passed_ = 0;
 };
 
+// What is left of a line after its key: a name, which may contain spaces.
+std::string name_in(std::string_view words) {
+  const std::size_t begin = words.find_first_not_of(" \t");
+  const std::size_t end = words.find_last_not_of(" \t\r");
+  const bool is_named = begin != std::string_view::npos;
+  return is_named ? std::string(words.substr(begin, end + 1 - begin)) : std::string();
+}
+
 // Throws for what tinyobjloader would accept in silence: it reads a number that it cannot parse as
 // 0 and skips a face without corners.
 OrderedText ordered(std::string_view text, const std::string& name) {
@@ -218,11 +230,14 @@ OrderedText ordered(std::string_view text, const std::string& name) {
       }
       group = word == "off" ? 0 : word == "on" ? 1 : static_cast<uint32_t>(*number);
     } else if (key == "o" || key == "g") {
-      const std::size_t begin = words.find_first_not_of(" \t");
-      const std::size_t end = words.find_last_not_of(" \t\r");
-      const bool is_named = begin != std::string_view::npos;
-      add_group(is_named ? std::string(words.substr(begin, end + 1 - begin)) : std::string(),
-                out.smoothing_groups.size(), key == "o" ? out.objects : out.groups);
+      add_group(name_in(words), out.smoothing_groups.size(), key == "o" ? out.objects : out.groups);
+    } else if (key == "usemtl") {
+      add_group(name_in(words), out.smoothing_groups.size(), out.materials);
+    } else if (key == "mtllib") {
+      const std::string library = name_in(words);
+      if (std::find(out.libraries.begin(), out.libraries.end(), library) == out.libraries.end()) {
+        out.libraries.push_back(library);
+      }
     } else {
       counts.points += key == "p" ? 1 : 0;
       counts.lines += key == "l" ? 1 : 0;
@@ -354,9 +369,28 @@ std::vector<std::string> notes_of(const Counts& counts) {
   return notes;
 }
 
+// Gives polygons the colours of their materials.
+void add_material_colors(const OrderedText& text, const std::filesystem::path& folder,
+                         PolygonModel& model) {
+  const std::map<std::string, glm::vec3> colors =
+      material_colors(text.libraries, folder, model.notes);
+  if (colors.empty()) return;
+  model.colors.assign(model.sizes.size(), PolygonModel::no_color);
+  for (std::size_t i = 0; i < text.materials.size(); ++i) {
+    const std::size_t end =
+        i + 1 < text.materials.size() ? text.materials[i + 1].first : model.sizes.size();
+    const auto found = colors.find(text.materials[i].name);
+    if (found == colors.end()) continue;
+    std::fill(model.colors.begin() + static_cast<std::ptrdiff_t>(text.materials[i].first),
+              model.colors.begin() + static_cast<std::ptrdiff_t>(end),
+              glm::clamp(found->second, 0.0F, 1.0F));
+  }
+}
+
 }  // namespace
 
-PolygonModel parse_obj(std::string_view file_text, const std::string& name) {
+PolygonModel parse_obj(std::string_view file_text, const std::string& name,
+                       const std::filesystem::path& folder) {
   std::string converted;
   if (file_text.starts_with("\xFF\xFE") || file_text.starts_with("\xFE\xFF")) {
     file_text = converted = from_utf16(file_text);
@@ -393,7 +427,12 @@ PolygonModel parse_obj(std::string_view file_text, const std::string& name) {
   if (model.sizes.empty()) {
     throw InputError(name + ": the file has no faces" + notes_after_semicolon(model) + ".");
   }
+  if (!folder.empty() && !text.materials.empty()) add_material_colors(text, folder, model);
   return model;
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+  return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
 }
 
 std::string model_name(const std::filesystem::path& path) {
@@ -401,7 +440,7 @@ std::string model_name(const std::filesystem::path& path) {
 }
 
 PolygonModel read_obj(const std::filesystem::path& path) {
-  return parse_obj(read_bytes(path), path.string());
+  return parse_obj(read_bytes(path), path.string(), folder_of(path));
 }
 
 }  // namespace trisect

@@ -10,6 +10,9 @@
 
 namespace trisect {
 
+// Where a file is: "." for one without a folder.
+std::filesystem::path folder_of(const std::filesystem::path& path);
+
 // What a model is called: "teapot" of "assets/teapot.obj".
 std::string model_name(const std::filesystem::path& path);
 
@@ -21,10 +24,13 @@ std::string model_name(const std::filesystem::path& path);
 // corners are left out; so are fourth coordinates of vertices, and normals that faces name in a
 // file that has none. The notes say what, and how often. Smoothing groups are read; without any all
 // faces are in one.
+//
+// The colours of materials are read from the files that the file names, in its folder and below.
 PolygonModel read_obj(const std::filesystem::path& path);
 
 // The same for the text of a file, in ASCII, UTF-8 or UTF-16; `name` stands for the file in
-// messages.
-PolygonModel parse_obj(std::string_view file_text, const std::string& name);
+// messages. folder: where materials are; without one they are not looked for.
+PolygonModel parse_obj(std::string_view file_text, const std::string& name,
+                       const std::filesystem::path& folder = {});
 
 }  // namespace trisect

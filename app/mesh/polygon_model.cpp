@@ -20,6 +20,26 @@ bool add_vertex(const glm::dvec3& position, const glm::dvec3* normal, PolygonMod
   return is_finite(position);
 }
 
+void add_color(std::size_t first, const std::optional<glm::vec3>& color, PolygonModel& model) {
+  if (!color && model.colors.empty()) return;
+  // Earlier polygons may have come without one.
+  model.colors.resize(first, PolygonModel::no_color);
+  // Written so that a NaN is no colour.
+  const bool is_color = color && color->x + color->y + color->z > -1e30F;
+  model.colors.resize(model.sizes.size(),
+                      is_color ? glm::clamp(*color, 0.0F, 1.0F) : PolygonModel::no_color);
+}
+
+glm::vec3 srgb_color(const glm::dvec3& linear) {
+  glm::vec3 encoded;
+  for (int i = 0; i < 3; ++i) {
+    const double x = linear[i];
+    encoded[i] =
+        static_cast<float>(x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055);
+  }
+  return encoded;
+}
+
 void note_left_out(std::size_t count, const char* what, PolygonModel& model) {
   if (count == 0) return;
   model.notes.push_back(fmt::format("{} {}{} left out", count, what, count == 1 ? "" : "s"));

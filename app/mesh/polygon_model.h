@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,9 @@ struct PolygonModel {
   // Of each polygon: normals that are made are smooth between polygons of the same group; 0 is a
   // group of one polygon. Empty: all polygons are in one.
   std::vector<uint32_t> smoothing_groups;
+  // Of each polygon, sRGB-encoded from 0 to 1, or no_color; empty if the file gives none.
+  static constexpr glm::vec3 no_color{-1.0F};
+  std::vector<glm::vec3> colors;
   // How far quantisation can have moved what the file's author had: positions, a length, and
   // normals, the length of the difference of unit vectors; for the weights of a skin as the file
   // has them. 0 if it has floats, infinite if a compression has rounded them: its step is not read.
@@ -57,6 +61,12 @@ glm::dmat3 matrix_for_normals(const glm::dmat3& m);
 // Adds a position, and a normal unless it is null; one that is not finite becomes 0, for which one
 // is made. Returns whether the position is finite.
 bool add_vertex(const glm::dvec3& position, const glm::dvec3* normal, PolygonModel& model);
+
+// Gives the polygons from `first` on this colour, whose components are held within 0 and 1.
+void add_color(std::size_t first, const std::optional<glm::vec3>& color, PolygonModel& model);
+
+// A colour in linear light as the sRGB-encoded one.
+glm::vec3 srgb_color(const glm::dvec3& linear);
 
 // Adds the note that so many were left out, unless none were. what: one of them, "line".
 void note_left_out(std::size_t count, const char* what, PolygonModel& model);

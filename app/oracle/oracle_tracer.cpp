@@ -86,6 +86,7 @@ bool cast_oracle_shadows(const OracleFrame& answers, const BakedScene& scene,
         const dvec3 normal =
             in_double::vertex_normal(to_double(scene.triangles[root.triangle]), root.weights);
         seen.normal_z = vec4(glm::vec3(glm::normalize(normal)), 0.0F);
+        seen.triangle = root.triangle;
         frame.colors[i] = kernel.shadow_color(seen, glm::vec3(view));
       }
     }

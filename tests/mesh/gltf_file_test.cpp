@@ -448,5 +448,30 @@ TEST(GltfFile, SaysWhatIsWrong) {
   EXPECT_EQ(refusal(binary.substr(0, binary.size() - 8)), "model.gltf: is cut off.");
 }
 
+// Linear light in the file; where a texture has the colour nothing is known of it.
+TEST(GltfFile, TakesTheColoursOfMaterials) {
+  GltfText file = square_file(6);
+  json primitive = file.root()["meshes"][0]["primitives"][0];
+  EXPECT_TRUE(parse_bytes(file.text()).colors.empty());
+  file.root()["materials"] = {
+      {{"pbrMetallicRoughness", {{"baseColorFactor", {1.0, 0.2140411, 0.0, 0.5}}}}},
+      {{"pbrMetallicRoughness",
+        {{"baseColorFactor", {1, 1, 1, 1}}, {"baseColorTexture", {{"index", 0}}}}}},
+      {{"name", "nothing said"}}};
+  for (const int material : {0, 1, 2}) {
+    primitive["material"] = material;
+    file.root()["meshes"][0]["primitives"].push_back(primitive);
+  }
+  const PolygonModel model = parse_bytes(file.text());
+  ASSERT_EQ(model.colors.size(), 8U);
+  for (const std::size_t i : {0U, 1U, 4U, 5U, 6U, 7U}) {
+    EXPECT_EQ(model.colors[i], PolygonModel::no_color) << i;
+  }
+  EXPECT_LT(glm::distance(model.colors[2], glm::vec3(1.0F, 0.5F, 0.0F)), 1e-6F);
+  EXPECT_EQ(model.colors[2], model.colors[3]);
+  file.root()["meshes"][0]["primitives"][1]["material"] = 3;
+  EXPECT_NE(refusal(file.text()), "");
+}
+
 }  // namespace
 }  // namespace trisect

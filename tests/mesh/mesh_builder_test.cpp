@@ -280,5 +280,19 @@ TEST(BuildMesh, DescribesItselfInOneLine) {
             "left out");
 }
 
+// The triangles of a polygon have its colour, also where others were left out before them.
+TEST(BuildMesh, KeepsColours) {
+  PolygonModel model =
+      parse_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 1 2\nf 1 2 3 4\nf 1 2 3\n", "model.obj");
+  const glm::vec3 red(1, 0, 0);
+  model.colors = {glm::vec3(0, 0, 1), red, PolygonModel::no_color};
+  const BuiltMesh built = build_mesh(model, "model.obj");
+  EXPECT_EQ(built.report.degenerate_dropped, 1U);
+  EXPECT_EQ(built.mesh.colors, (std::vector<glm::vec3>{red, red, PolygonModel::no_color}));
+  EXPECT_EQ(built.report.colored, 2U);
+  model.colors.assign(3, PolygonModel::no_color);
+  EXPECT_TRUE(build_mesh(model, "model.obj").mesh.colors.empty());
+}
+
 }  // namespace
 }  // namespace trisect

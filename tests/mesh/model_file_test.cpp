@@ -97,6 +97,28 @@ TEST(ModelFile, KeepsThePolygonsOfPly) {
   EXPECT_EQ(smooth.normals.at(smooth.corners[0].normal), dvec3(0, 0, 2));
 }
 
+// A face has the mean of its corners' colours.
+TEST(ModelFile, TakesTheColoursOfPly) {
+  const test::TemporaryFolder folder;
+  const auto ply = [](const std::string& colors, const std::string& suffix) {
+    return "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+           "property float z\n" +
+           colors + "element face 2\nproperty list uchar int vertex_indices\nend_header\n0 0 0" +
+           (suffix.empty() ? "\n1 0 0\n1 1 0\n0 1 0\n"
+                           : " 255 0 0\n1 0 0 255 0 0\n1 1 0 255 255 0\n0 1 0 0 0 255\n") +
+           "3 0 1 2\n3 0 2 3\n";
+  };
+  const std::string colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  std::ofstream(folder / "a.ply") << ply(colors, "colors");
+  const BuiltMesh built = build_mesh(read_model(folder / "a.ply"), "a.ply");
+  ASSERT_EQ(built.mesh.colors.size(), 2U);
+  EXPECT_EQ(built.report.colored, 2U);
+  EXPECT_LT(glm::distance(built.mesh.colors[0], glm::vec3(1.0F, 1.0F / 3.0F, 0.0F)), 1e-6F);
+  EXPECT_LT(glm::distance(built.mesh.colors[1], glm::vec3(2.0F, 1.0F, 1.0F) / 3.0F), 1e-6F);
+  std::ofstream(folder / "a.ply") << ply("", "");
+  EXPECT_TRUE(build_mesh(read_model(folder / "a.ply"), "a.ply").mesh.colors.empty());
+}
+
 TEST(ModelFile, MakesNormalsForStl) {
   const BuiltMesh built = build_mesh(parse_by_assimp(pyramid_as("stlb"), "stl", "a.stl"), "a.stl");
   EXPECT_EQ(built.report.normals, NormalSource::welded);

@@ -277,5 +277,31 @@ TEST(ObjFile, SaysWhyAFileCannotBeRead) {
   EXPECT_EQ(complain(noise).find(noise.string()), 0U) << complain(noise);
 }
 
+// Those of "mtllib" files in the model's folder and below; of others nothing is read.
+TEST(ObjFile, TakesTheColoursOfMaterials) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "in/sub");
+  std::ofstream(folder / "in/sub/a b.mtl")
+      << "# two\nnewmtl red one \r\nKa 1 1 1\nKd 0.5 0.25 0\r\n\tKs 1 1 1\nnewmtl bright\nKd 2 "
+         "-1 1\nnewmtl textured\nKd 1 1 1\nmap_Kd t.png\nnewmtl black\nKd 0 0 0\nnewmtl bare\n";
+  std::ofstream(folder / "outside.mtl") << "newmtl outside\nKd 1 1 1\n";
+  std::ofstream(folder / "in/model.obj")
+      << "mtllib sub/a b.mtl\nmtllib ../outside.mtl\nmtllib none.mtl\n"
+      << kSquare
+      << "f 1 2 3\nusemtl red one\nf 1 2 3\nf 1 3 4\nusemtl bright\nf 1 2 3\nusemtl "
+         "textured\nf 1 2 3\nusemtl outside\nf 1 2 3\nusemtl black\nf 1 2 3\nusemtl bare\nf 1 2 "
+         "3\n";
+  const PolygonModel model = read_obj(folder / "in/model.obj");
+  const glm::vec3 none = PolygonModel::no_color;
+  const glm::vec3 red(0.5F, 0.25F, 0.0F);
+  EXPECT_EQ(model.colors, (std::vector<glm::vec3>{none, red, red, glm::vec3(1, 0, 1), none, none,
+                                                  glm::vec3(0), none}));
+  EXPECT_EQ(model.notes, (std::vector<std::string>{
+                             "a material file outside the model's folder not read",
+                             "a material file that is not there or cannot be read left out"}));
+  // A file that uses none costs nothing.
+  EXPECT_TRUE(parse(std::string("mtllib none.mtl\n") + kSquare + "f 1 2 3\n").colors.empty());
+}
+
 }  // namespace
 }  // namespace trisect

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <tuple>
 
@@ -25,6 +26,16 @@ class Shading : public test::GpuTest {
         scene_(bake_with_subpatches(mesh_, {SURFACE_PHONG, 0.65, SHELL_NORMAL})),
         settings_(test::framed(mesh_, scene_, 80, 60, 10)) {
     settings_.solver = SOLVER_ROBUST;
+  }
+
+  // To two of three triangles.
+  void give_colors() {
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      mesh_.colors.push_back(t % 3 == 0   ? vec3(1, 0, 0)
+                             : t % 3 == 1 ? vec3(0, 1, 0.5F)
+                                          : vec3(-1.0F));
+    }
+    scene_ = bake_with_subpatches(mesh_, scene_.choice);
   }
 
   // The frame of a back end.
@@ -107,7 +118,35 @@ TEST_F(Shading, LightsAPlainSurfaceInItsColour) {
   EXPECT_GT(hits, 500U);
 }
 
+// Of the file, unless the user chose one; on a plain surface only.
+TEST_F(Shading, TakesTheColoursOfTriangles) {
+  give_colors();
+  const Frame own = traced(Backend::vulkan);
+  settings_.own_colors = false;
+  const Frame chosen = traced(Backend::vulkan);
+  std::array<std::size_t, 3> seen{};
+  for (std::size_t i = 0; i < own.colors.size(); ++i) {
+    const uint triangle = own.aovs[i].triangle;
+    if (triangle == NO_TRIANGLE) continue;
+    ++seen[triangle % 3];
+    // The same light on another colour.
+    const vec3 difference = color_at(chosen, i) - color_at(own, i);
+    const vec3 expected = triangle % 3 == 0   ? vec3(settings_.color) - vec3(1, 0, 0)
+                          : triangle % 3 == 1 ? vec3(settings_.color) - vec3(0, 1, 0.5F)
+                                              : vec3(0.0F);
+    EXPECT_LT(glm::length(glm::cross(difference, expected)), 1e-5F);
+    EXPECT_EQ(glm::length(difference) > 0.05F, triangle % 3 < 2);
+  }
+  EXPECT_GT(*std::min_element(seen.begin(), seen.end()), 100U);
+  settings_.own_colors = true;
+  settings_.shading = SHADING_GRID;
+  const Frame grid = traced(Backend::vulkan);
+  settings_.own_colors = false;
+  test::expect_equal(grid, traced(Backend::vulkan), "grid");
+}
+
 TEST_F(Shading, IsTheSameOnEveryBackEnd) {
+  give_colors();
   for (const uint shading :
        {SHADING_PLAIN, SHADING_GRID, SHADING_NORMAL, SHADING_PATCH, SHADING_DEPTH}) {
     SCOPED_TRACE(shading_name(shading));
