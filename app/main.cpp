@@ -14,6 +14,7 @@
 #include "app/cli/command_options.h"
 #include "app/cli/commands.h"
 #include "app/cli/interrupt.h"
+#include "app/cli/output.h"
 #include "app/cli/scene_options.h"
 #include "app/view/command_line.h"
 
@@ -23,6 +24,15 @@ namespace {
 int fail(int code, const std::string& message) {
   std::fprintf(stderr, "trisect: %s\n", message.c_str());
   return code;
+}
+
+// Adds --quiet to a command and its own.
+void add_quiet(CLI::App& command) {
+  const std::vector<CLI::App*> own = command.get_subcommands({});
+  for (CLI::App* sub : own) add_quiet(*sub);
+  if (own.empty()) {
+    command.add_flag_callback("-q,--quiet", be_quiet, "Say nothing but what is wrong");
+  }
 }
 
 // Values of `render`'s own options, as text that is parsed after CLI11 is done.
@@ -35,8 +45,10 @@ void add_render(CLI::App& app, RenderOptions& options, RenderText& text) {
   CLI::App* render = app.add_subcommand("render", "Render a model to an image file");
   add_scene(*render, options, text.scene);
   render
-      ->add_option("-o,--output", options.output,
-                   "Image to write: .png (8-bit sRGB) or .exr (linear float, with AOVs)")
+      ->add_option(
+          "-o,--output", options.output,
+          "Image to write: .png (8-bit sRGB) or .exr (linear float, with AOVs); - writes PNG to "
+          "standard output")
       ->required()
       ->type_name("FILE");
   render
@@ -243,6 +255,9 @@ int run(int argc, char** argv) {
   add_export(app, export_options, export_surface);
   DevicesOptions devices_options;
   add_devices(app, devices_options);
+  for (CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() != "view") add_quiet(*command);
+  }
   app.footer(
       "Exit codes: 0 done, 1 farther apart than promised, 2 usage, 3 bad input, 4 no usable "
       "device, 5 device lost, 6 out of memory, 70 internal error, 130 interrupted.");

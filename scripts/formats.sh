@@ -21,14 +21,15 @@ Written by \`scripts/formats.sh\` with Debian's assimp-testmodels $(dpkg-query -
 | format | read by | what of it |
 |---|---|---|
 | OBJ | tinyobjloader | polygons, normals, smoothing groups, colours of materials; ASCII, UTF-8, UTF-16 |
-| glTF 2.0, GLB | nlohmann-json, Draco, meshoptimizer | the scene's nodes with their transformations; triangles, strips, fans; morph targets and skins at rest; sparse and quantised accessors; base colours of materials; KHR_draco_mesh_compression, EXT_meshopt_compression |
+| glTF 2.0, GLB | nlohmann-json, Draco, meshoptimizer | the scene's nodes with their transformations; triangles, strips, fans; morph targets and skins at rest; sparse and quantised accessors; base colours of materials and COLOR_0; KHR_draco_mesh_compression, EXT_meshopt_compression |
 | PLY | Assimp | polygons, normals and colours of vertices, ASCII and binary |
 | STL | Assimp | facets, ASCII and binary; normals are made, for it has one for each facet only |
 | FBX | Assimp | all meshes with the transformations of their nodes, colours of materials |
 
 The format is told by the content, or, where that says nothing, by the ending of the name. Each may be compressed by gzip.
 Points and lines are left out. A triangle has one colour, the mean of its vertices' where those have some; textures are not
-read, and a material with one has no colour here. Material files of OBJ are read in the model's folder and below. Units and axes stay as they are in the file. glTF is not read by tinygltf or Assimp because
+read, and a material with one has no colour here. Not read are colours of OBJ's vertices and what some programs write into STL
+for colours. Material files of OBJ are read in the model's folder and below, links followed. Units and axes stay as they are in the file. glTF is not read by tinygltf or Assimp because
 tinygltf 2.7 refuses buffers that only stand in for compressed ones and reads Draco's views unchecked, and Assimp 5.2 takes
 no quantised positions.
 

@@ -8,8 +8,8 @@
 
 // A baked triangle, 192 bytes: the structure of the thesis, member for member.
 struct Triangle {
-  vec4 Position[3];  // xyz: vertex; w of the three: red, green and blue of the triangle, negative
-                     // if it has no colour of its own
+  vec4 Position[3];    // xyz: vertex; w of the three: red, green and blue of the triangle, negative
+                       // if it has no colour of its own
   vec4 Normal[3];      // xyz: unit vertex normal
   vec4 TriNormal;      // xyz: unit face normal n; w: length of the longest edge
   vec4 NormDot;        // component i: dot(Normal[i], n), but no nearer to 0 than LEAST_COSINE

@@ -12,6 +12,7 @@
 #include "app/bench/report_files.h"
 #include "app/cli/cache_folder.h"
 #include "app/cli/json_text.h"
+#include "app/cli/output.h"
 #include "app/cli/provenance.h"
 #include "app/dispatch/pipeline_store.h"
 #include "app/mesh/mesh_builder.h"
@@ -64,7 +65,7 @@ int bench_ablation(const AblationOptions& options) {
   folder.write("ablation.json", json_text({{"facts", facts}, {"ablations", json_of(ablations)}}));
   folder.write("ablation.md", report::markdown_of(blocks));
   folder.write("ablation.html", report::html_of(title, blocks, folder.path()));
-  fmt::print("{}\n", (folder.path() / "ablation.md").string());
+  say("{}\n", (folder.path() / "ablation.md").string());
   return exit_done;
 }
 

@@ -15,6 +15,7 @@
 #include "app/bench/stress_table.h"
 #include "app/cli/cache_folder.h"
 #include "app/cli/json_text.h"
+#include "app/cli/output.h"
 #include "app/cli/provenance.h"
 #include "app/crosscheck/frame_comparison.h"
 #include "app/dispatch/pipeline_store.h"
@@ -104,9 +105,8 @@ int bench_pareto(const ParetoOptions& options) {
     for (const uint surface : options.surfaces) {
       scenes.push_back(bench::measure_scene(device, options, model, surface));
       const bench::Scene& scene = scenes.back();
-      fmt::print("{}, {}\n", scene.model, surface_name(surface));
-      for (const std::string& finding : bench::findings_of(scene)) fmt::print("  {}\n", finding);
-      std::fflush(stdout);
+      say("{}, {}\n", scene.model, surface_name(surface));
+      for (const std::string& finding : bench::findings_of(scene)) say("  {}\n", finding);
     }
   }
   const std::vector<std::string> facts = provenance(device, context ? &*context : nullptr, options);
@@ -126,7 +126,7 @@ int bench_pareto(const ParetoOptions& options) {
   const std::vector<Block> blocks = report_of(scenes, facts, options.plots, hard);
   folder.write("report.md", report::markdown_of(blocks));
   folder.write("report.html", report::html_of("Speed against error", blocks, folder.path()));
-  fmt::print("{}\n", (folder.path() / "report.md").string());
+  say("{}\n", (folder.path() / "report.md").string());
   return exit_done;
 }
 

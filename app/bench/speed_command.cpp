@@ -9,7 +9,6 @@
 
 #include "app/bake/bvh.h"
 #include "app/bake/subpatch_bounds.h"
-#include "app/base/atomic_file.h"
 #include "app/base/error.h"
 #include "app/base/stopwatch.h"
 #include "app/bench/commands.h"
@@ -17,9 +16,9 @@
 #include "app/bench/sample_check.h"
 #include "app/bench/speed_report.h"
 #include "app/cli/cache_folder.h"
-#include "app/cli/distinct_files.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/json_text.h"
+#include "app/cli/output.h"
 #include "app/cli/progress_line.h"
 #include "app/cli/statistics.h"
 #include "app/dispatch/pipeline_store.h"
@@ -195,16 +194,14 @@ std::vector<bench::SpeedRow> rows_of(const std::string& model, uint surface, con
 }  // namespace
 
 int bench_speed(const BenchOptions& options) {
-  expect_distinct(options.models, {options.json});
+  begin_outputs(options.models, {options.json});
   const gpu::Instance instance(false);
   const gpu::Device device(instance, options.device);
   const PipelineStore store(device, cache_folder());
-  std::optional<AtomicFile> file;
-  if (!options.json.empty()) file.emplace(options.json);
-  fmt::print("device {}, driver {}, {}x{}, medians of {} runs\n\n{}", device.report().name,
-             device.report().driver, options.width, options.height, options.runs,
-             bench::speed_columns().markdown_header());
-  std::fflush(stdout);
+  OptionalOutput file(options.json);
+  say("device {}, driver {}, {}x{}, medians of {} runs\n\n{}", device.report().name,
+      device.report().driver, options.width, options.height, options.runs,
+      bench::speed_columns().markdown_header());
   nlohmann::ordered_json json;
   json["device"] = device.report().name;
   json["driver"] = device.report().driver;
@@ -217,16 +214,13 @@ int bench_speed(const BenchOptions& options) {
       Race race(device, options, model, surface);
       race.run();
       for (const bench::SpeedRow& row : rows_of(model, surface, race)) {
-        fmt::print("{}", bench::speed_columns().markdown_row(row));
+        say("{}", bench::speed_columns().markdown_row(row));
         json["rows"].push_back(bench::speed_columns().json(row));
       }
-      std::fflush(stdout);
     }
   }
-  if (file) {
-    file->write(json_text(json));
-    file->commit();
-  }
+  file.write(json_text(json));
+  file.commit();
   return exit_done;
 }
 

@@ -11,6 +11,7 @@
 #include "app/bench/stability.h"
 #include "app/bench/stability_report.h"
 #include "app/cli/json_text.h"
+#include "app/cli/output.h"
 #include "app/cli/provenance.h"
 #include "app/report/document.h"
 
@@ -47,7 +48,7 @@ int bench_stability(const StabilityOptions& options) {
   folder.write("stability.json", json_text({{"program", program}, {"curves", json_of(axes)}}));
   folder.write("stability.md", report::markdown_of(blocks));
   folder.write("stability.html", report::html_of(title, blocks, folder.path()));
-  fmt::print("{}\n", (folder.path() / "stability.md").string());
+  say("{}\n", (folder.path() / "stability.md").string());
   return exit_done;
 }
 

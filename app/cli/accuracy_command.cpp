@@ -7,14 +7,13 @@
 
 #include "app/accuracy/accuracy.h"
 #include "app/bake/subpatch_bounds.h"
-#include "app/base/atomic_file.h"
 #include "app/base/error.h"
 #include "app/cli/accuracy_report.h"
 #include "app/cli/cache_folder.h"
 #include "app/cli/commands.h"
-#include "app/cli/distinct_files.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/json_text.h"
+#include "app/cli/output.h"
 #include "app/cli/progress_line.h"
 #include "app/dispatch/cpu_tracer.h"
 #include "app/dispatch/pipeline_store.h"
@@ -102,14 +101,13 @@ std::vector<AccuracyRow> measure_model(const gpu::Device& device, const Accuracy
 }  // namespace
 
 int accuracy(const AccuracyOptions& options) {
-  expect_distinct(options.models, {options.json});
+  begin_outputs(options.models, {options.json});
   const gpu::Instance instance(false);
   const gpu::Device device(instance, options.device);
   const PipelineStore store(device, cache_folder());
-  std::optional<AtomicFile> file;
-  if (!options.json.empty()) file.emplace(options.json);
-  fmt::print("device {}, driver {}, {}x{}\n\n{}", device.report().name, device.report().driver,
-             options.width, options.height, accuracy_table_header());
+  OptionalOutput file(options.json);
+  say("device {}, driver {}, {}x{}\n\n{}", device.report().name, device.report().driver,
+      options.width, options.height, accuracy_table_header());
   nlohmann::ordered_json json;
   json["device"] = device.report().name;
   json["driver"] = device.report().driver;
@@ -119,16 +117,13 @@ int accuracy(const AccuracyOptions& options) {
   bool kept = true;
   for (const std::string& model : options.models) {
     for (const AccuracyRow& row : measure_model(device, options, model)) {
-      fmt::print("{}", accuracy_columns().markdown_row(row));
-      std::fflush(stdout);
+      say("{}", accuracy_columns().markdown_row(row));
       json["rows"].push_back(accuracy_columns().json(row));
       kept = kept && (row.solver == SOLVER_BISECT || keeps_promise(row.accuracy));
     }
   }
-  if (file) {
-    file->write(json_text(json));
-    file->commit();
-  }
+  file.write(json_text(json));
+  file.commit();
   return kept ? exit_done : exit_different;
 }
 

@@ -3,13 +3,13 @@
 #include "app/base/error.h"
 #include "app/cli/commands.h"
 #include "app/cli/comparison_report.h"
-#include "app/cli/distinct_files.h"
+#include "app/cli/output.h"
 #include "app/picture/image_reader.h"
 
 namespace trisect {
 
 int compare_images(const CompareOptions& options) {
-  expect_distinct({options.a, options.b}, {options.json, options.diff});
+  begin_outputs({options.a, options.b}, {options.json, options.diff});
   const Frame a = read_image(options.a);
   const Frame b = read_image(options.b);
   ComparisonFiles files(options.json, options.diff);

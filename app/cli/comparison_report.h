@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "app/base/atomic_file.h"
+#include "app/cli/output.h"
 #include "app/crosscheck/tolerance.h"
 #include "app/frame/frame.h"
 #include "app/picture/image_file.h"
@@ -31,8 +31,8 @@ class ComparisonFiles {
 
  private:
   std::optional<ImageFormat> format_;  // of diff
-  std::optional<AtomicFile> json_;
-  std::optional<AtomicFile> diff_;
+  OptionalOutput json_;
+  std::optional<Output> diff_;
 };
 
 }  // namespace trisect

@@ -8,8 +8,8 @@
 #include "app/cli/cache_folder.h"
 #include "app/cli/commands.h"
 #include "app/cli/comparison_report.h"
-#include "app/cli/distinct_files.h"
 #include "app/cli/load_scene.h"
+#include "app/cli/output.h"
 #include "app/dispatch/accel.h"
 #include "app/dispatch/pipeline_store.h"
 #include "app/trace/trace_scene.h"
@@ -30,7 +30,7 @@ Tolerance tolerance_between(Backend a, Backend b, GlPath gl_path) {
 
 int crosscheck(const CrosscheckOptions& options) {
   const RenderOptions& render = options.render;
-  expect_distinct({render.model}, {options.json, options.diff});
+  begin_outputs({render.model}, {options.json, options.diff});
   ComparisonFiles files(options.json, options.diff);
   LoadedScene loaded = load_scene(render);
   std::vector<TraceResult> results;
@@ -43,8 +43,8 @@ int crosscheck(const CrosscheckOptions& options) {
     const std::string path = backend != Backend::opengl           ? ""
                              : render.gl_path == GlPath::fragment ? " (fragment)"
                                                                   : " (compute)";
-    fmt::print("{}{}: {}, {}\n", backend_name(backend), path, results.back().device,
-               results.back().driver);
+    say("{}{}: {}, {}\n", backend_name(backend), path, results.back().device,
+        results.back().driver);
   }
 
   nlohmann::ordered_json json{{"model", render.model},

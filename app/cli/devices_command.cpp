@@ -4,12 +4,12 @@
 #include <optional>
 #include <vector>
 
-#include "app/base/atomic_file.h"
 #include "app/base/error.h"
 #include "app/cli/commands.h"
 #include "app/cli/floats_report.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/json_text.h"
+#include "app/cli/output.h"
 #include "vk/instance.h"
 
 namespace trisect {
@@ -48,33 +48,31 @@ FloatReport measure(const gpu::Instance& instance, std::size_t number) {
   const gpu::Capabilities& capabilities = device.capabilities();
   const gpu::FloatControls& floats = capabilities.floats;
   const std::vector<uint32_t> sizes = capabilities.subgroups.sizes();
-  fmt::print("\nSubgroups: {} invocations; kernels can ask for {}.\n", device.subgroup_size(),
-             sizes.empty() ? "no size" : fmt::format("{}", fmt::join(sizes, ", ")));
-  fmt::print("Kernels can declare RoundingModeRTE: {}, SignedZeroInfNanPreserve: {}, ",
-             yes_or_no(floats.rounds_to_nearest_even),
-             yes_or_no(floats.preserves_signed_zero_inf_nan));
-  fmt::print("DenormPreserve: {}.\n", yes_or_no(floats.preserves_denormals));
-  fmt::print("The largest errors and shares of {} inputs; \"if declared\": by one of these.\n\n{}",
-             report.items, float_columns().markdown_header());
+  say("\nSubgroups: {} invocations; kernels can ask for {}.\n", device.subgroup_size(),
+      sizes.empty() ? "no size" : fmt::format("{}", fmt::join(sizes, ", ")));
+  say("Kernels can declare RoundingModeRTE: {}, SignedZeroInfNanPreserve: {}, ",
+      yes_or_no(floats.rounds_to_nearest_even), yes_or_no(floats.preserves_signed_zero_inf_nan));
+  say("DenormPreserve: {}.\n", yes_or_no(floats.preserves_denormals));
+  say("The largest errors and shares of {} inputs; \"if declared\": by one of these.\n\n{}",
+      report.items, float_columns().markdown_header());
   for (const FloatRow& row : float_rows(report)) {
-    fmt::print("{}", float_columns().markdown_row(row));
+    say("{}", float_columns().markdown_row(row));
   }
-  fmt::print("\n");
-  std::fflush(stdout);
+  say("\n");
   return report;
 }
 
 }  // namespace
 
 int list_devices(const DevicesOptions& options) {
+  begin_outputs({}, {options.json});
   const gpu::Instance instance(false);
   const std::vector<gpu::DeviceReport> reports = instance.reports();
   std::optional<std::size_t> chosen;
   if (reports.empty() || !options.device.empty()) {
     chosen = gpu::choose_device(reports, options.device);  // throws if there is none
   }
-  std::optional<AtomicFile> file;
-  if (!options.json.empty()) file.emplace(options.json);
+  OptionalOutput file(options.json);
   nlohmann::ordered_json json{{"program", "trisect"}, {"version", TRISECT_VERSION}};
   json["devices"] = nlohmann::ordered_json::array();
   bool any_usable = false;
@@ -82,19 +80,17 @@ int list_devices(const DevicesOptions& options) {
     if (chosen && *chosen != i) continue;
     const gpu::DeviceReport& report = reports[i];
     any_usable = any_usable || report.usable();
-    fmt::print("{}  {} ({}), Vulkan {}, driver {}: {}\n", i, report.name, report.type, report.api,
-               report.driver,
-               report.usable() ? "usable" : fmt::format("lacks {}", fmt::join(report.lacks, ", ")));
+    say("{}  {} ({}), Vulkan {}, driver {}: {}\n", i, report.name, report.type, report.api,
+        report.driver,
+        report.usable() ? "usable" : fmt::format("lacks {}", fmt::join(report.lacks, ", ")));
     json["devices"].push_back(json_of(i, report, instance.devices()[i]));
     if (options.floats && report.usable()) {
       json["devices"].back()["floats"] = float_figures(measure(instance, i));
       stop_if_interrupted();
     }
   }
-  if (file) {
-    file->write(json_text(json));
-    file->commit();
-  }
+  file.write(json_text(json));
+  file.commit();
   return any_usable ? exit_done : exit_no_device;
 }
 

@@ -7,12 +7,11 @@
 #include <system_error>
 
 #include "app/bake/bake.h"
-#include "app/base/atomic_file.h"
 #include "app/base/error.h"
 #include "app/cli/commands.h"
-#include "app/cli/distinct_files.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/json_text.h"
+#include "app/cli/output.h"
 #include "app/cli/progress_line.h"
 #include "app/mesh/mesh_builder.h"
 #include "app/mesh/model_file.h"
@@ -51,39 +50,37 @@ int export_mesh(const ExportOptions& options) {
     throw UsageError(
         fmt::format("-o {}: the name must end in .obj, .ply, .stl or .glb.", options.output));
   }
-  expect_distinct({options.model}, {options.output, options.json});
-  AtomicFile file(options.output);
-  std::optional<AtomicFile> json_file;
-  if (!options.json.empty()) json_file.emplace(options.json);
+  begin_outputs({options.model}, {options.output, options.json});
+  Output file(options.output);
+  OptionalOutput json_file(options.json);
   const BuiltMesh built = build_mesh(read_model(options.model), options.model, options.mesh);
-  fmt::print("{}: {}\n", options.model, describe(built.report));
+  say("{}: {}\n", options.model, describe(built.report));
   stop_if_interrupted();
   const BakedScene scene = bake(built.mesh, {options.surface, options.alpha, SHELL_NORMAL});
   const FlatMesh flat =
       flattened(options, built.mesh, scene, file_rounding(built.mesh, scene, *format));
   const std::size_t open_edges = count_open_edges(flat);
   stop_if_interrupted();
-  write_mesh(flat, *format, file);
+  write_mesh(flat, *format, file.file());
   file.commit();
   std::error_code unused;
   const auto bytes = std::filesystem::file_size(options.output, unused);
-  fmt::print(
-      "{}: {} triangles, {} vertices, {}; off the surface by at most {:.3g} ({:.2g} of the "
+  say("{}: {} triangles, {} vertices, {}; off the surface by at most {:.3g} ({:.2g} of the "
       "radius)\n",
       options.output, flat.triangles.size(), flat.positions.size(),
       open_edges == 0 ? "closed" : fmt::format("{} open edges", open_edges), flat.bound,
       flat.bound / scene.extent);
   const bool reached = flat.beyond_error == 0;
   if (!reached) {
-    fmt::print("{}: {:g} is not proven for {} of the triangles, {}\n", options.output,
-               *options.error, flat.beyond_error,
-               flat.off > 0.5 * *options.error
-                   ? fmt::format("whose vertices are up to {:.2g} off the surface: it is baked in "
-                                 "single precision, and neighbours' normals may not quite agree",
-                                 flat.off)
-                   : "where the surface is too steep");
+    say("{}: {:g} is not proven for {} of the triangles, {}\n", options.output, *options.error,
+        flat.beyond_error,
+        flat.off > 0.5 * *options.error
+            ? fmt::format("whose vertices are up to {:.2g} off the surface: it is baked in "
+                          "single precision, and neighbours' normals may not quite agree",
+                          flat.off)
+            : "where the surface is too steep");
   }
-  if (json_file) {
+  if (json_file.is_wanted()) {
     nlohmann::ordered_json json{{"program", "trisect"},
                                 {"version", TRISECT_VERSION},
                                 {"model", options.model},
@@ -100,8 +97,8 @@ int export_mesh(const ExportOptions& options) {
                                                         : nlohmann::ordered_json()},
                                 {"radius", scene.extent},
                                 {"bytes", bytes}};
-    json_file->write(json_text(json));
-    json_file->commit();
+    json_file.write(json_text(json));
+    json_file.commit();
   }
   return reached ? exit_done : exit_different;
 }

@@ -4,13 +4,13 @@
 #include <optional>
 #include <utility>
 
-#include "app/base/atomic_file.h"
 #include "app/base/error.h"
 #include "app/cli/cache_folder.h"
 #include "app/cli/commands.h"
 #include "app/cli/hardcases_report.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/json_text.h"
+#include "app/cli/output.h"
 #include "app/dispatch/pipeline_store.h"
 #include "app/stress/stress_backend.h"
 #include "app/stress/stress_judge.h"
@@ -31,7 +31,7 @@ std::string to_json(const StressBackend& backend, const std::vector<StressRow>& 
 std::vector<StressRow> run_all(const StressBackend& backend) {
   std::vector<StressRow> rows;
   const auto add = [&](StressRow row) {
-    fmt::print("{}", hardcases_columns().text_row(row));
+    say("{}", hardcases_columns().text_row(row));
     rows.push_back(std::move(row));
     stop_if_interrupted();
   };
@@ -45,21 +45,18 @@ std::vector<StressRow> run_all(const StressBackend& backend) {
 }
 
 int run_on(const HardcasesOptions& options, const StressBackend& backend) {
-  std::optional<AtomicFile> json;
-  if (!options.json.empty()) json.emplace(options.json);
-  fmt::print("device {}, driver {}\n", backend.device, backend.driver);
-  fmt::print("{}", hardcases_columns().text_header());
+  begin_outputs({}, {options.json});
+  OptionalOutput json(options.json);
+  say("device {}, driver {}\n", backend.device, backend.driver);
+  say("{}", hardcases_columns().text_header());
   const std::vector<StressRow> rows = run_all(backend);
   const BindingRows binding = count_binding(rows);
-  fmt::print(
-      "ulp: depth error across the surface, |dz| |n.v|, in units of 2^-23 of the scene's radius "
+  say("ulp: depth error across the surface, |dz| |n.v|, in units of 2^-23 of the scene's radius "
       "(of the eye's distance in images)\n"
       "{} of {} rows of the robust solver in the normal shell pass, {} undecided\n",
       binding.passed, binding.all, binding.undecided);
-  if (json) {
-    json->write(to_json(backend, rows));
-    json->commit();
-  }
+  json.write(to_json(backend, rows));
+  json.commit();
   return binding.failed() == 0 ? exit_done : exit_different;
 }
 

@@ -9,13 +9,12 @@
 #include <system_error>
 #include <vector>
 
-#include "app/base/atomic_file.h"
 #include "app/base/error.h"
 #include "app/cli/commands.h"
-#include "app/cli/distinct_files.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/json_text.h"
 #include "app/cli/model_facts.h"
+#include "app/cli/output.h"
 #include "app/cli/progress_line.h"
 #include "app/mesh/mesh_builder.h"
 #include "app/mesh/model_file.h"
@@ -203,9 +202,7 @@ ordered_json json_of(const InfoOptions& options, const Model& model) {
 void print(const InfoOptions& options, const Model& model) {
   const MeshReport& report = model.built.report;
   const ModelFacts& facts = model.facts;
-  const auto row = [](const char* what, const std::string& text) {
-    fmt::print("{:<13}{}\n", what, text);
-  };
+  const auto row = [](const char* what, const std::string& text) { say("{:<13}{}\n", what, text); };
   const auto megabytes = [](std::size_t bytes) {
     return fmt::format("{:.3g} MB", static_cast<double>(bytes) / 1e6);
   };
@@ -255,15 +252,12 @@ void print(const InfoOptions& options, const Model& model) {
 }  // namespace
 
 int info(const InfoOptions& options) {
-  expect_distinct({options.model}, {options.json});
-  std::optional<AtomicFile> file;
-  if (!options.json.empty()) file.emplace(options.json);
+  begin_outputs({options.model}, {options.json});
+  OptionalOutput file(options.json);
   const Model model = examine(options);
   print(options, model);
-  if (file) {
-    file->write(json_text(json_of(options, model)));
-    file->commit();
-  }
+  if (file.is_wanted()) file.write(json_text(json_of(options, model)));
+  file.commit();
   return exit_done;
 }
 

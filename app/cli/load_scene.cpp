@@ -9,6 +9,7 @@
 #include "app/base/error.h"
 #include "app/base/stopwatch.h"
 #include "app/cli/interrupt.h"
+#include "app/cli/output.h"
 #include "app/cli/progress_line.h"
 #include "app/frame/supersampling.h"
 #include "app/mesh/mesh_builder.h"
@@ -77,15 +78,14 @@ LoadedScene load_scene(const RenderOptions& options) {
   const BuiltMesh built = timed("reading " + options.model, loaded.load_ms, [&] {
     return build_mesh(read_model(options.model), options.model, options.mesh);
   });
-  fmt::print("{}: {}\n", options.model, describe(built.report));
+  say("{}: {}\n", options.model, describe(built.report));
   loaded.scene = timed("baking", loaded.bake_ms, [&] {
     const SurfaceChoice choice{options.surface, options.alpha, options.shell};
     return options.solver == SOLVER_ROBUST ? bake_with_subpatches(built.mesh, choice)
                                            : bake(built.mesh, choice);
   });
   if (const std::size_t count = count_without_surface(loaded.scene); count > 0) {
-    fmt::print(
-        "{}: no surface in the height shell for {} of the triangles, which have a vertex normal in "
+    say("{}: no surface in the height shell for {} of the triangles, which have a vertex normal in "
         "their plane\n",
         options.model, count);
   }

@@ -5,12 +5,11 @@
 #include <string>
 #include <utility>
 
-#include "app/base/atomic_file.h"
 #include "app/base/error.h"
 #include "app/cli/cache_folder.h"
 #include "app/cli/commands.h"
-#include "app/cli/distinct_files.h"
 #include "app/cli/load_scene.h"
+#include "app/cli/output.h"
 #include "app/cli/statistics.h"
 #include "app/dispatch/accel.h"
 #include "app/dispatch/pipeline_store.h"
@@ -20,15 +19,14 @@
 
 namespace trisect {
 int render(const RenderOptions& options) {
-  const ImageFormat format = image_format(options.output);
-  expect_distinct({options.model}, {options.output, options.stats});
+  const ImageFormat format = output_format(options.output);
+  begin_outputs({options.model}, {options.output, options.stats});
   LoadedScene loaded = load_scene(options);
   const Accel accel = accel_for(options, options.backend, loaded.scene);
   if (needs_bvh(accel, options.shadows)) add_bvh(loaded);
 
-  AtomicFile image(options.output);
-  std::optional<AtomicFile> stats;
-  if (!options.stats.empty()) stats.emplace(options.stats);
+  Output image(options.output);
+  OptionalOutput stats(options.stats);
 
   const bool aovs = format == ImageFormat::exr || options.evals;
   TraceResult traced = trace_showing_progress(
@@ -56,12 +54,12 @@ int render(const RenderOptions& options) {
   statistics.upload_ms = traced.upload_ms;
 
   write_image(
-      traced.frame, format, image,
+      traced.frame, format, image.file(),
       {options.evals, options.background == Background::none, attributes_of(options, statistics)});
-  if (stats) stats->write(to_json(options, statistics));
+  stats.write(to_json(options, statistics));
   image.commit();
-  if (stats) stats->commit();
-  fmt::print("{}{}\n", to_text(options, statistics), options.output);
+  stats.commit();
+  say("{}{}\n", to_text(options, statistics), options.output);
 
   for (const std::string& message : traced.messages) {
     fmt::print(stderr, "validation: {}\n", message);

@@ -41,7 +41,9 @@ TraceParams make_params(const BakedScene& scene, const TraceSettings& settings) 
   const double far = glm::distance(settings.camera.eye, scene.origin) + scene.radius + near;
   // The scene's ball, as far as it lies before the eye.
   params.depth_low = static_cast<float>(std::max(far - near - 2.0 * scene.radius, 0.0));
-  params.depth_high = static_cast<float>(far - near);
+  // From very far away the two are one number in single precision.
+  params.depth_high =
+      std::max(static_cast<float>(far - near), std::nextafterf(params.depth_low, 3e38F));
   set_rays(settings.camera, scene.origin, scene.radius, near, far, params);
   return params;
 }

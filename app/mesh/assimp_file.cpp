@@ -38,13 +38,11 @@ dvec3 vector_from(const aiVector3D& v) {
 // Puts the meshes of a scene together.
 class AssimpScene {
  public:
-  // format: as Assimp names it. STL's normals are those of facets. Of the three formats FBX alone
-  // has materials; Assimp makes one itself for the others.
+  // format: as Assimp names it. STL's normals are those of facets, and what some programs take for
+  // colours there others write anything into. Of the three formats FBX alone has materials; Assimp
+  // makes one itself for the others.
   AssimpScene(const aiScene& scene, const std::string& format, const std::string& name)
-      : scene_(scene),
-        takes_normals_(format != "stl"),
-        takes_materials_(format == "fbx"),
-        name_(name) {}
+      : scene_(scene), is_stl_(format == "stl"), takes_materials_(format == "fbx"), name_(name) {}
 
   PolygonModel assemble() {
     // Without recursion, which a long chain of nodes could make too deep.
@@ -75,7 +73,7 @@ class AssimpScene {
     if (first + mesh.mNumVertices > 0xfffffffeU) {
       throw InputError(name_ + ": has too many vertices.");
     }
-    const bool has_normals = takes_normals_ && mesh.HasNormals();
+    const bool has_normals = !is_stl_ && mesh.HasNormals();
     const bool mirrored = glm::determinant(dmat3(matrix)) < 0.0;
     const dmat3 turn = matrix_for_normals(dmat3(matrix));
     make_room(mesh.mNumVertices, model_.positions);
@@ -90,6 +88,7 @@ class AssimpScene {
         throw InputError(fmt::format("{}: vertex {} is not three finite numbers.", name_, i));
       }
     }
+    const bool has_colors = !is_stl_ && mesh.HasVertexColors(0);
     const std::size_t first_face = model_.sizes.size();
     add_group(mesh.mName.C_Str(), first_face, model_.groups);
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
@@ -109,11 +108,11 @@ class AssimpScene {
              has_normals ? static_cast<uint32_t>(first_normal + i) : PolygonCorner::no_normal});
       }
       model_.sizes.push_back(face.mNumIndices);
-      if (mesh.HasVertexColors(0)) {
+      if (has_colors) {
         add_color(model_.sizes.size() - 1, color_of(mesh, face), model_);
       }
     }
-    if (!mesh.HasVertexColors(0)) add_color(first_face, material_color(mesh), model_);
+    if (!has_colors) add_color(first_face, material_color(mesh), model_);
   }
 
   // The mean of a face's vertices.
@@ -133,6 +132,7 @@ class AssimpScene {
     aiColor3D color;
     if (material.GetName() == aiString(AI_DEFAULT_MATERIAL_NAME) ||
         material.GetTextureCount(aiTextureType_DIFFUSE) > 0 ||
+        material.GetTextureCount(aiTextureType_BASE_COLOR) > 0 ||
         material.Get(AI_MATKEY_COLOR_DIFFUSE, color) != aiReturn_SUCCESS) {
       return std::nullopt;
     }
@@ -140,7 +140,7 @@ class AssimpScene {
   }
 
   const aiScene& scene_;
-  bool takes_normals_;
+  bool is_stl_;
   bool takes_materials_;
   const std::string& name_;
   PolygonModel model_;

@@ -76,4 +76,20 @@ std::string read_bytes(const std::filesystem::path& path) {
   return bytes;
 }
 
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+  return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+}
+
+std::optional<std::filesystem::path> file_below(const std::filesystem::path& folder,
+                                                const std::filesystem::path& name) {
+  if (name.empty() || name.is_absolute()) return std::nullopt;
+  std::error_code error;
+  const std::filesystem::path inside = std::filesystem::weakly_canonical(folder, error);
+  const std::filesystem::path file = std::filesystem::weakly_canonical(folder / name, error);
+  if (error) return std::nullopt;
+  const std::filesystem::path relative = file.lexically_relative(inside);
+  if (relative.empty() || *relative.begin() == "..") return std::nullopt;
+  return file;
+}
+
 }  // namespace trisect

@@ -253,12 +253,9 @@ std::string Data::read_uri(const std::string& uri, std::size_t index) const {
     if (begin == std::string::npos) fail(fmt::format("buffer {} has no base64 data", index));
     return decoded_base64(std::string_view(uri).substr(begin + mark.size()));
   }
-  const std::filesystem::path relative =
-      std::filesystem::path(decoded_percent(uri)).lexically_normal();
-  if (relative.is_absolute() || relative.empty() || *relative.begin() == "..") {
-    fail("names a buffer outside its folder");
-  }
-  return read_bytes(path_.parent_path() / relative);
+  const auto file = file_below(folder_of(path_), decoded_percent(uri));
+  if (!file) fail("names a buffer outside its folder");
+  return read_bytes(*file);
 }
 
 std::string_view Data::part(std::size_t index, std::size_t offset, std::size_t size) {

@@ -41,7 +41,7 @@ class Primitive {
     if (const json* packed = extension_of(primitive, "KHR_draco_mesh_compression")) unpack(*packed);
   }
 
-  // Nothing if the primitive has no such attribute.
+  // Nothing if the primitive has no such attribute. columns: how many it must have, 0 for any.
   std::optional<Table> attribute(const std::string& name, std::size_t columns) {
     std::optional<Table> table;
     const auto packed = packed_.find(name);
@@ -53,7 +53,7 @@ class Primitive {
       if (found == attributes.end()) return std::nullopt;
       table = data_.table(whole(*found));
     }
-    if (table->columns != columns) {
+    if (columns != 0 && table->columns != columns) {
       data_.fail(fmt::format("{} has not {} components", name, columns));
     }
     return table;
@@ -284,6 +284,10 @@ class GltfScene {
     if (normals && normals->rows() != count) {
       data_.fail("a mesh has not as many normals as vertices");
     }
+    std::optional<Table> colors = primitive.attribute("COLOR_0", 0);
+    if (colors && (colors->rows() != count || colors->columns < 3)) {
+      data_.fail("a mesh has not a colour for each vertex");
+    }
     add_targets(object, weights, "POSITION", *positions);
     if (normals) add_targets(object, weights, "NORMAL", *normals);
 
@@ -346,21 +350,43 @@ class GltfScene {
         }
       }
     }
-    add_color(first_triangle, color_of(object), model_);
+    add_colors(object, colors, first_triangle, first);
   }
 
-  // Of a primitive, if its material says one that no texture changes.
-  [[nodiscard]] std::optional<glm::vec3> color_of(const json& primitive) const {
+  // Of a primitive's material in linear light, 1,1,1 where it says none; nothing without a material
+  // and where a texture has the colour.
+  [[nodiscard]] std::optional<dvec3> base_color_of(const json& primitive) const {
     if (!primitive.contains("material")) return std::nullopt;
     const json& material = data_.element("materials", whole(primitive.at("material")));
     const auto metal = material.find("pbrMetallicRoughness");
-    if (metal == material.end() || metal->contains("baseColorTexture") ||
-        !metal->contains("baseColorFactor")) {
-      return std::nullopt;
-    }
+    if (metal == material.end()) return dvec3(1.0);
+    if (metal->contains("baseColorTexture")) return std::nullopt;
+    if (!metal->contains("baseColorFactor")) return dvec3(1.0);
     const auto factor = metal->at("baseColorFactor").get<std::vector<double>>();
     if (factor.size() < 3) return std::nullopt;
-    return srgb_color({factor[0], factor[1], factor[2]});
+    return dvec3(factor[0], factor[1], factor[2]);
+  }
+
+  // Gives the triangles from `first` on their colours: the base colour times the mean of their
+  // corners' in COLOR_0. first_vertex: the number of the first of those in the model.
+  void add_colors(const json& object, const std::optional<Table>& vertex_colors, std::size_t first,
+                  std::size_t first_vertex) {
+    const std::optional<dvec3> base = base_color_of(object);
+    const bool is_textured = object.contains("material") && !base;
+    if (!vertex_colors || is_textured) {
+      add_color(first, base ? std::optional(srgb_color(*base)) : std::nullopt, model_);
+      return;
+    }
+    std::vector<glm::vec3> colors;
+    for (std::size_t corner = 3 * first; corner + 2 < model_.corners.size(); corner += 3) {
+      dvec3 sum(0.0);
+      for (std::size_t k = corner; k < corner + 3; ++k) {
+        sum += vertex_colors->vector(model_.corners[k].position - first_vertex);
+      }
+      colors.push_back(srgb_color(sum / 3.0 * base.value_or(dvec3(1.0))));
+    }
+    model_.colors.resize(first, PolygonModel::no_color);
+    for (const glm::vec3& color : colors) add_one_color(color, model_);
   }
 
   // Adds the morph targets' parts to an attribute.

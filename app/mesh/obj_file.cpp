@@ -11,6 +11,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <set>
 #include <streambuf>
 #include <system_error>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "app/base/error.h"
 #include "app/mesh/file_bytes.h"
 #include "app/mesh/obj_materials.h"
+#include "app/mesh/obj_text.h"
 
 namespace trisect {
 namespace {
@@ -41,20 +43,10 @@ struct OrderedText {
   std::vector<PolygonGroup> objects;       // "o"
   std::vector<PolygonGroup> groups;        // "g"
   std::vector<PolygonGroup> materials;     // "usemtl"
-  std::vector<std::string> libraries;      // "mtllib"
+  std::set<std::string> libraries;         // "mtllib"
   bool has_groups = false;
   Counts counts;
 };
-
-// Removes the first word from `line` and returns it; empty at the end of the line.
-std::string_view take_word(std::string_view& line) {
-  constexpr std::string_view spaces = " \t\r\f\v";
-  const std::size_t begin = std::min(line.find_first_not_of(spaces), line.size());
-  const std::size_t end = std::min(line.find_first_of(spaces, begin), line.size());
-  const std::string_view word = line.substr(begin, end - begin);
-  line.remove_prefix(end);
-  return word;
-}
 
 // The finite number that a word is; what is too small for double precision is 0.
 std::optional<double> number_of(std::string_view word) {
@@ -103,73 +95,6 @@ std::optional<WrittenCorner> corner_of(std::string_view word) {
     word.remove_prefix(text.size() + 1);
   }
   return std::nullopt;
-}
-
-// The lines of a text, without their comments, one at a time. Where the text has a line that ends
-// with a backslash the next one is its continuation; not so in a name, which may end with one.
-class Lines {
- public:
-  explicit Lines(std::string_view text) : rest_(text) {}
-
-  // False at the end of the text.
-  bool next() {
-    if (rest_.empty()) return false;
-    number_ = passed_ + 1;
-    line_ = take();
-    std::string_view words = line_;
-    key_ = take_word(words);
-    constexpr std::array<std::string_view, 6> of_names{"usemtl", "mtllib", "usemap",
-                                                       "maplib", "o",      "g"};
-    if (std::find(of_names.begin(), of_names.end(), key_) != of_names.end()) return true;
-    if (!is_continued(line_)) return true;
-    joined_.clear();
-    while (is_continued(line_)) {
-      joined_.append(line_, 0, line_.rfind('\\')).push_back(' ');
-      line_ = rest_.empty() ? std::string_view() : take();
-    }
-    line_ = joined_.append(line_);
-    words = line_;
-    key_ = take_word(words);
-    return true;
-  }
-
-  [[nodiscard]] std::size_t number() const { return number_; }
-  [[nodiscard]] std::string_view key() const { return key_; }
-  // What follows the key.
-  [[nodiscard]] std::string_view words() const {
-    return line_.substr(static_cast<std::size_t>(key_.data() + key_.size() - line_.data()));
-  }
-
- private:
-  static bool is_continued(std::string_view line) {
-    const std::size_t last = line.find_last_not_of(" \t\r");
-    return last != std::string_view::npos && line[last] == '\\';
-  }
-
-  // A line ends with \n, \r\n or a lone \r.
-  std::string_view take() {
-    ++passed_;
-    const std::size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
-    const std::string_view line = rest_.substr(0, end);
-    rest_.remove_prefix(rest_.substr(end).starts_with("\r\n") ? end + 2
-                                                              : std::min(end + 1, rest_.size()));
-    return line.substr(0, line.find('#'));
-  }
-
-  std::string_view rest_;
-  std::string_view line_;
-  std::string_view key_;
-  std::string joined_;
-  std::size_t number_ = 0;
-  std::size_t passed_ = 0;
-};
-
-// What is left of a line after its key: a name, which may contain spaces.
-std::string name_in(std::string_view words) {
-  const std::size_t begin = words.find_first_not_of(" \t");
-  const std::size_t end = words.find_last_not_of(" \t\r");
-  const bool is_named = begin != std::string_view::npos;
-  return is_named ? std::string(words.substr(begin, end + 1 - begin)) : std::string();
 }
 
 // Throws for what tinyobjloader would accept in silence: it reads a number that it cannot parse as
@@ -234,10 +159,7 @@ OrderedText ordered(std::string_view text, const std::string& name) {
     } else if (key == "usemtl") {
       add_group(name_in(words), out.smoothing_groups.size(), out.materials);
     } else if (key == "mtllib") {
-      const std::string library = name_in(words);
-      if (std::find(out.libraries.begin(), out.libraries.end(), library) == out.libraries.end()) {
-        out.libraries.push_back(library);
-      }
+      out.libraries.insert(name_in(words));
     } else {
       counts.points += key == "p" ? 1 : 0;
       counts.lines += key == "l" ? 1 : 0;
@@ -341,19 +263,6 @@ class Reader {
   std::vector<std::size_t> lines_;  // of the faces
 };
 
-// UTF-16 with its mark as ASCII: only names and comments have other characters, and those do not
-// matter.
-std::string from_utf16(std::string_view text) {
-  const std::size_t high = text.starts_with("\xFE\xFF") ? 0 : 1;
-  std::string plain;
-  plain.reserve(text.size() / 2);
-  for (std::size_t i = 2; i + 1 < text.size(); i += 2) {
-    const char low = text[i + 1 - high];
-    plain.push_back(text[i + high] == '\0' && static_cast<unsigned char>(low) < 0x80 ? low : '?');
-  }
-  return plain;
-}
-
 std::vector<std::string> notes_of(const Counts& counts) {
   std::vector<std::string> notes;
   const auto note = [&](std::size_t count, const char* one, const char* many, const char* what) {
@@ -392,11 +301,7 @@ void add_material_colors(const OrderedText& text, const std::filesystem::path& f
 PolygonModel parse_obj(std::string_view file_text, const std::string& name,
                        const std::filesystem::path& folder) {
   std::string converted;
-  if (file_text.starts_with("\xFF\xFE") || file_text.starts_with("\xFE\xFF")) {
-    file_text = converted = from_utf16(file_text);
-  }
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (file_text.starts_with(byte_order_mark)) file_text.remove_prefix(byte_order_mark.size());
+  file_text = plain_text(file_text, converted);
   OrderedText text = ordered(file_text, name);
 
   CountingBuffer buffer(text.text);
@@ -429,10 +334,6 @@ PolygonModel parse_obj(std::string_view file_text, const std::string& name,
   }
   if (!folder.empty() && !text.materials.empty()) add_material_colors(text, folder, model);
   return model;
-}
-
-std::filesystem::path folder_of(const std::filesystem::path& path) {
-  return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
 }
 
 std::string model_name(const std::filesystem::path& path) {

@@ -10,9 +10,6 @@
 
 namespace trisect {
 
-// Where a file is: "." for one without a folder.
-std::filesystem::path folder_of(const std::filesystem::path& path);
-
 // What a model is called: "teapot" of "assets/teapot.obj".
 std::string model_name(const std::filesystem::path& path);
 

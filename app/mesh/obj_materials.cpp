@@ -2,63 +2,100 @@
 
 #include <fmt/format.h>
 
-#include <set>
-#include <sstream>
+#include <charconv>
+#include <optional>
+#include <string_view>
 
 #include "app/base/error.h"
 #include "app/mesh/file_bytes.h"
+#include "app/mesh/obj_text.h"
 
 namespace trisect {
 namespace {
 
-// Nothing but a file in the folder or below it.
-bool is_below(const std::filesystem::path& name) {
-  const std::filesystem::path normal = name.lexically_normal();
-  return !normal.empty() && !normal.is_absolute() && *normal.begin() != "..";
+namespace fs = std::filesystem;
+
+std::optional<float> number_in(std::string_view& words) {
+  const std::string_view word = take_word(words);
+  float value = 0.0F;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const bool is_number = error == std::errc() && end == word.data() + word.size() && !word.empty();
+  return is_number ? std::optional(value) : std::nullopt;
 }
 
 // tinyobjloader takes a material without Kd for a black one: so read here what there is of them.
-void read_materials(const std::string& text, std::map<std::string, glm::vec3>& colors) {
-  std::istringstream lines(text);
+void read_materials(std::string_view file_text, std::map<std::string, glm::vec3>& colors) {
+  std::string converted;
+  std::string material;
   std::set<std::string> textured;
-  std::string name;
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    std::string key;
-    words >> key;
-    if (key == "newmtl") {
-      std::getline(words >> std::ws, name);
-      name.erase(name.find_last_not_of(" \t\r") + 1);
-    } else if (key == "Kd") {
-      glm::vec3 color;
-      if (words >> color.x >> color.y >> color.z) colors[name] = color;
-    } else if (key == "map_Kd") {
-      textured.insert(name);
+  for (Lines lines(plain_text(file_text, converted)); lines.next();) {
+    std::string_view words = lines.words();
+    if (lines.key() == "newmtl") {
+      material = name_in(words);
+    } else if (lines.key() == "map_Kd") {
+      textured.insert(material);
+    } else if (lines.key() == "Kd" && !material.empty()) {
+      const std::optional<float> red = number_in(words);
+      if (!red) continue;
+      // The others are the same if they are left out.
+      const float green = number_in(words).value_or(*red);
+      colors[material] = {*red, green, number_in(words).value_or(*red)};
     }
   }
-  for (const std::string& material : textured) colors.erase(material);
+  for (const std::string& name : textured) colors.erase(name);
+}
+
+// A file by this name, and whether it is outside the folder.
+struct Found {
+  std::optional<fs::path> file;
+  bool is_outside = false;
+};
+
+Found found(const fs::path& folder, const std::string& name) {
+  const auto file = file_below(folder, name);
+  std::error_code unused;
+  if (!file) return {std::nullopt, !name.empty()};
+  return {fs::is_regular_file(*file, unused) ? file : std::nullopt};
 }
 
 }  // namespace
 
-std::map<std::string, glm::vec3> material_colors(const std::vector<std::string>& libraries,
-                                                 const std::filesystem::path& folder,
+std::map<std::string, glm::vec3> material_colors(const std::set<std::string>& libraries,
+                                                 const fs::path& folder,
                                                  std::vector<std::string>& notes) {
   std::map<std::string, glm::vec3> colors;
-  for (const std::string& library : libraries) {
-    if (!is_below(library)) {
-      notes.push_back("a material file outside the model's folder not read");
-      continue;
+  std::size_t outside = 0;
+  std::size_t absent = 0;
+  const auto read = [&](const Found& library) {
+    if (!library.file) {
+      ++(library.is_outside ? outside : absent);
+      return;
     }
-    std::string text;
     try {
-      text = read_bytes(folder / library);
+      read_materials(read_bytes(*library.file), colors);
     } catch (const InputError&) {
-      notes.push_back("a material file that is not there or cannot be read left out");
+      ++absent;
+    }
+  };
+  for (const std::string& line : libraries) {
+    const Found whole = found(folder, line);
+    std::string_view words = line;
+    const std::string first(take_word(words));
+    if (whole.file || first == line) {
+      read(whole);
       continue;
     }
-    read_materials(text, colors);
+    words = line;
+    for (auto word = take_word(words); !word.empty(); word = take_word(words)) {
+      read(found(folder, std::string(word)));
+    }
   }
+  const auto note = [&](std::size_t count, const char* what) {
+    if (count == 0) return;
+    notes.push_back(fmt::format("{} material {} {}", count, count == 1 ? "file" : "files", what));
+  };
+  note(outside, "outside the model's folder not read");
+  note(absent, "not found, or not readable");
   return colors;
 }
 

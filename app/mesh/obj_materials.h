@@ -4,15 +4,16 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace trisect {
 
-// By the materials' names, sRGB-encoded: those (Kd) that no texture (map_Kd) changes. libraries: as
-// "mtllib" lines name them, in the folder or below it; what is named outside of it is not read.
-// Adds a note for each that is not there or cannot be read.
-std::map<std::string, glm::vec3> material_colors(const std::vector<std::string>& libraries,
+// By the materials' names, sRGB-encoded: those (Kd) that no texture (map_Kd) changes. libraries:
+// what follows "mtllib" in lines: a file in the folder or below it, or several, one word each.
+// Other files are not read. Adds notes with the numbers of those and of files that are not there.
+std::map<std::string, glm::vec3> material_colors(const std::set<std::string>& libraries,
                                                  const std::filesystem::path& folder,
                                                  std::vector<std::string>& notes);
 

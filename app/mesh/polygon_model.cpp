@@ -20,14 +20,25 @@ bool add_vertex(const glm::dvec3& position, const glm::dvec3* normal, PolygonMod
   return is_finite(position);
 }
 
+namespace {
+
+// Held within 0 and 1. Written so that a NaN is no colour.
+glm::vec3 held(const glm::vec3& color) {
+  return color.x + color.y + color.z > -1e30F ? glm::clamp(color, 0.0F, 1.0F)
+                                              : PolygonModel::no_color;
+}
+
+}  // namespace
+
 void add_color(std::size_t first, const std::optional<glm::vec3>& color, PolygonModel& model) {
   if (!color && model.colors.empty()) return;
   // Earlier polygons may have come without one.
   model.colors.resize(first, PolygonModel::no_color);
-  // Written so that a NaN is no colour.
-  const bool is_color = color && color->x + color->y + color->z > -1e30F;
-  model.colors.resize(model.sizes.size(),
-                      is_color ? glm::clamp(*color, 0.0F, 1.0F) : PolygonModel::no_color);
+  model.colors.resize(model.sizes.size(), color ? held(*color) : PolygonModel::no_color);
+}
+
+void add_one_color(const glm::vec3& color, PolygonModel& model) {
+  model.colors.push_back(held(color));
 }
 
 glm::vec3 srgb_color(const glm::dvec3& linear) {

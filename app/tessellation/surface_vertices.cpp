@@ -29,7 +29,11 @@ uint32_t SurfaceVertices::at_corner(uint32_t patch, std::size_t corner) {
   const uint32_t place = mesh_.triangles[patch].vertex[corner];
   // Normals count as the surface has them, in single precision.
   const glm::vec3 normal(scene_.triangles[patch].Normal[static_cast<int>(corner)]);
-  for (uint32_t v = first_of_place_[place]; v != kNoVertex; v = next_[v]) {
+  // The latest ones: of many sharp faces around a place, the neighbours'. Whoever is not found gets
+  // a vertex of its own, at the same place.
+  constexpr int most = 64;
+  uint32_t v = first_of_place_[place];
+  for (int looked = 0; v != kNoVertex && looked < most; v = next_[v], ++looked) {
     if (glm::distance(dvec3(normals_[v]), dvec3(normal)) <= kSameNormal) return v;
   }
   return add(mesh_.positions[place], normal, place);

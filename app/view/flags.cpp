@@ -86,6 +86,7 @@ RenderOptions with_flags(const RenderOptions& base, const std::string& text) {
   options.shading.reset();
   options.color.reset();
   options.background.reset();
+  options.background_color = glm::dvec3(0.0);
   std::vector<std::string> words = words_of(text);
   if (names_command(words)) words.erase(words.begin(), words.begin() + 2);
   CLI::App command;

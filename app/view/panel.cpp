@@ -105,10 +105,13 @@ void choose_shading(Settings& settings) {
   if (shading != before) render.shading = shading;
   if (!is_lit(shading)) {
     render.shadows = false;
+    render.color.reset();
     return;
   }
   glm::vec3 color(render.color.value_or(standard_color(shading)));
-  if (ImGui::ColorEdit3("color", &color.x)) render.color = glm::dvec3(color);
+  if (ImGui::ColorEdit3("color", &color.x)) {
+    render.color = glm::dvec3(glm::clamp(color, 0.0F, 1.0F));
+  }
 }
 
 void choose_light(Settings& settings) {

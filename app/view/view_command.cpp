@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "app/base/atomic_file.h"
 #include "app/base/error.h"
 #include "app/cli/cache_folder.h"
 #include "app/cli/load_scene.h"
+#include "app/cli/output.h"
 #include "app/dispatch/accel.h"
 #include "app/dispatch/pipeline_store.h"
 #include "app/picture/image_file.h"
@@ -22,8 +22,8 @@ int view_model(const ViewOptions& options) {
   chosen_accel(accel_request(options.render, true), Backend::vulkan, 1);
   std::vector<view::ScriptStep> script;
   if (!options.script.empty()) script = view::read_script(options.script);
-  std::optional<AtomicFile> stats;
-  if (!options.stats.empty()) stats.emplace(options.stats);
+  begin_outputs({options.render.model, options.script}, {options.screenshot, options.stats});
+  OptionalOutput stats(options.stats);
   view::Window window(options.render.width, options.render.height, "trisect");
   const gpu::Instance instance(options.render.validation, window.vulkan_extensions());
   {
@@ -32,11 +32,9 @@ int view_model(const ViewOptions& options) {
     const PipelineStore store(device, cache_folder());
     view::Viewer viewer(options, std::move(script), window, instance, device, surface.get());
     viewer.run();
-    fmt::print("{}", view::to_text(viewer.statistics()));
-    if (stats) {
-      stats->write(view::to_json(viewer.statistics()));
-      stats->commit();
-    }
+    say("{}", view::to_text(viewer.statistics()));
+    stats.write(view::to_json(viewer.statistics()));
+    stats.commit();
   }
   const std::vector<std::string> messages = instance.log().messages();
   for (const std::string& message : messages) fmt::print(stderr, "validation: {}\n", message);

@@ -1,7 +1,9 @@
 // The program as a user runs it: exit codes, messages, files.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -14,6 +16,7 @@
 #include "tests/support/exr_reader.h"
 #include "tests/support/file_content.h"
 #include "tests/support/program.h"
+#include "tests/support/run_program.h"
 
 namespace trisect {
 namespace {
@@ -56,8 +59,8 @@ TEST_F(Program, WritesStatistics) {
 TEST_F(Program, SaysInTheHeaderWhatMakesThePicture) {
   for (const std::vector<std::string>& options :
        {std::vector<std::string>{"--surface", "sphere", "--fov", "33.3", "--crease", "70",
-                                 "--shadows", "--light", "0.1,0.7,0.3", "--spp", "4",
-                                 "--background", "0.3,0.1,0.7"},
+                                 "--shadows", "--light", "0.1,0.7,0.3", "--spp", "4", "--color",
+                                 "0.2,0.4,0.1", "--background", "0.3,0.1,0.7"},
         std::vector<std::string>{"--backend", "opengl", "--gl-path", "fragment", "--shading",
                                  "patch", "--background", "transparent", "--weld", "0.01"}}) {
     const test::ProgramRun first = render(options, "a.exr");
@@ -70,10 +73,12 @@ TEST_F(Program, SaysInTheHeaderWhatMakesThePicture) {
                                    folder_ / "b.exr", "--size",      "32x24"};
     for (const std::string option :
          {"surface", "shell", "solver", "rank", "accel", "alpha", "eye", "target", "up", "fov",
-          "light", "spp", "weld", "backend", "shading", "color", "background"}) {
+          "light", "spp", "weld", "backend", "shading", "background"}) {
       ASSERT_EQ(said.count(option), 1U) << option;
       again.push_back("--" + option + "=" + said[option]);
     }
+    EXPECT_EQ(said.count("color"), options[0] == "--surface" ? 1U : 0U);
+    if (said.count("color") == 1) again.push_back("--color=" + said["color"]);
     EXPECT_EQ(said.count("crease"), options[0] == "--surface" ? 1U : 0U);
     EXPECT_EQ(said.count("gl_path"), options[0] == "--backend" ? 1U : 0U);
     if (said.count("crease") == 1) again.push_back("--crease=" + said["crease"]);
@@ -126,9 +131,17 @@ TEST_F(Program, ComplainsAboutUsageWithCode2) {
 
 TEST_F(Program, ComplainsAboutFilesWithCode3) {
   expect_complaint(run_trisect({"render", "absent.obj", "-o", folder_ / "a.png"}), 3, "absent.obj");
-  expect_complaint(render({}, "no/such/folder/a.png"), 3, "no/such/folder/a.png");
-  expect_complaint(render({"--stats", folder_ / "none" / "s.json"}), 3, "s.json");
   const test::TemporaryFolder models;
+  std::ofstream(models / "file") << "no folder";
+  const std::vector<std::string> cube{"render", test::asset_path("cube"), "--size", "32x24"};
+  const auto with = [&](const std::vector<std::string>& outputs) {
+    std::vector<std::string> arguments = cube;
+    arguments.insert(arguments.end(), outputs.begin(), outputs.end());
+    return run_trisect(arguments);
+  };
+  expect_complaint(with({"-o", models / "file/a.png"}), 3, "file: the folder cannot be made");
+  expect_complaint(with({"-o", folder_ / "a.png", "--stats", models / "file/s.json"}), 3,
+                   "file: the folder cannot be made");
   std::ofstream(models / "bad.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n";
   expect_complaint(run_trisect({"render", models / "bad.obj", "-o", folder_ / "a.png"}), 3,
                    "bad.obj, line 4");
@@ -272,6 +285,70 @@ TEST_F(Program, SaysHowFarNumbersOfAFileAreRounded) {
   const test::ProgramRun cube =
       run_trisect({"info", test::asset_path("cube"), "--json", folder_ / "a.json"});
   EXPECT_EQ(cube.out.find("off by up to"), std::string::npos);
+}
+
+TEST_F(Program, WritesDataToStandardOutputAlone) {
+  ASSERT_EQ(render({}, "a.png").exit_code, 0);
+  const auto standard = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"render", test::asset_path("sphere-20"), "--size", "32x24"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_trisect(arguments);
+  };
+  const test::ProgramRun image = standard({"-o", "-"});
+  EXPECT_EQ(image.exit_code, 0) << image.err;
+  EXPECT_EQ(image.out, test::content_of(folder_ / "a.png"));
+  EXPECT_NE(image.err.find("pixels hit"), std::string::npos);
+  const test::ProgramRun figures = standard({"-o", folder_ / "b.png", "--stats", "-"});
+  EXPECT_EQ(nlohmann::json::parse(figures.out)["patches"], 20);
+  EXPECT_NE(figures.err.find("pixels hit"), std::string::npos);
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"info", test::asset_path("cube")},
+        std::vector<std::string>{"devices"},
+        std::vector<std::string>{"compare", folder_ / "a.png", folder_ / "b.png"},
+        std::vector<std::string>{"export", test::asset_path("cube"), "--subdivide", "1", "-o",
+                                 folder_ / "c.ply"}}) {
+    std::vector<std::string> arguments = command;
+    arguments.insert(arguments.end(), {"--json", "-"});
+    const test::ProgramRun run = run_trisect(arguments);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_TRUE(nlohmann::json::accept(run.out)) << command[0] << run.out;
+    EXPECT_NE(run.err, "") << command[0];
+  }
+  const test::ProgramRun both = standard({"-o", "-", "--stats", "-"});
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_EQ(both.err, "trisect: -: standard output takes one output.\n");
+}
+
+TEST_F(Program, IsQuietIfItIsTold) {
+  const test::ProgramRun run = render({"--quiet"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.out + run.err, "");
+  EXPECT_EQ(files(), 1U);
+  const test::ProgramRun wrong = run_trisect({"info", "-q", folder_ / "none.obj"});
+  EXPECT_EQ(wrong.exit_code, 3);
+  EXPECT_NE(wrong.err, "");
+}
+
+TEST_F(Program, MakesTheFoldersOfItsOutputs) {
+  ASSERT_EQ(render({"--stats", folder_ / "c/s.json"}, "a/b/x.png").exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "a/b/x.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "c/s.json"));
+  const test::ProgramRun run = render({}, "c/s.json/x.png");
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_NE(run.err.find("c/s.json: the folder cannot be made"), std::string::npos) << run.err;
+}
+
+TEST_F(Program, SaysThatStandardOutputCannotBeWritten) {
+  for (const char* command : {"info", "render -o -", "render --stats - -o x.png"}) {
+    const std::string line =
+        fmt::format("cd {} && {} {} {} >/dev/full 2>err", folder_.path().string(),
+                    test::program_path(), command, test::asset_path("cube"));
+    const int status = std::system(line.c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 3) << command;
+    const std::string err = test::content_of(folder_ / "err");
+    EXPECT_NE(err.find("trisect: standard output: cannot be written: No space"), std::string::npos)
+        << err;
+  }
 }
 
 TEST_F(Program, ComplainsAboutDevicesWithCode4) {

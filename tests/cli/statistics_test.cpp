@@ -30,11 +30,11 @@ TEST(ToJson, HasEveryKeyOfTheContract) {
   for (const auto& [key, value] : json.items()) keys.push_back(key);
   EXPECT_EQ(keys,
             (std::vector<std::string>{
-                "program", "version", "commit",   "device",      "driver", "backend", "model",
-                "patches", "width",   "height",   "surface",     "shell",  "solver",  "accel",
-                "rank",    "alpha",   "hits",     "scene_bytes", "camera", "light",   "crease",
-                "weld",    "repair",  "shadows",  "spp",         "runs",   "gpu_ms",  "wall_ms",
-                "load_ms", "bake_ms", "upload_ms"}));
+                "program", "version",    "commit",  "device",      "driver",  "backend",  "model",
+                "patches", "width",      "height",  "surface",     "shell",   "solver",   "accel",
+                "rank",    "alpha",      "hits",    "scene_bytes", "camera",  "light",    "shading",
+                "color",   "background", "crease",  "weld",        "repair",  "shadows",  "spp",
+                "runs",    "gpu_ms",     "wall_ms", "load_ms",     "bake_ms", "upload_ms"}));
   EXPECT_EQ(json["program"], "trisect");
   EXPECT_EQ(json["version"], TRISECT_VERSION);
   EXPECT_EQ(json["camera"]["fov"], 45.0);

@@ -448,7 +448,8 @@ TEST(GltfFile, SaysWhatIsWrong) {
   EXPECT_EQ(refusal(binary.substr(0, binary.size() - 8)), "model.gltf: is cut off.");
 }
 
-// Linear light in the file; where a texture has the colour nothing is known of it.
+// Linear light in the file, white where it says nothing; where a texture has the colour nothing is
+// known of it.
 TEST(GltfFile, TakesTheColoursOfMaterials) {
   GltfText file = square_file(6);
   json primitive = file.root()["meshes"][0]["primitives"][0];
@@ -457,20 +458,45 @@ TEST(GltfFile, TakesTheColoursOfMaterials) {
       {{"pbrMetallicRoughness", {{"baseColorFactor", {1.0, 0.2140411, 0.0, 0.5}}}}},
       {{"pbrMetallicRoughness",
         {{"baseColorFactor", {1, 1, 1, 1}}, {"baseColorTexture", {{"index", 0}}}}}},
-      {{"name", "nothing said"}}};
-  for (const int material : {0, 1, 2}) {
+      {{"name", "nothing said"}},
+      {{"pbrMetallicRoughness", {{"metallicFactor", 0}}}}};
+  for (const int material : {0, 1, 2, 3}) {
     primitive["material"] = material;
     file.root()["meshes"][0]["primitives"].push_back(primitive);
   }
   const PolygonModel model = parse_bytes(file.text());
-  ASSERT_EQ(model.colors.size(), 8U);
-  for (const std::size_t i : {0U, 1U, 4U, 5U, 6U, 7U}) {
-    EXPECT_EQ(model.colors[i], PolygonModel::no_color) << i;
+  ASSERT_EQ(model.colors.size(), 10U);
+  const glm::vec3 none = PolygonModel::no_color;
+  const std::array<glm::vec3, 5> expected{
+      none, {1.0F, 0.5F, 0.0F}, none, glm::vec3(1), glm::vec3(1)};
+  for (std::size_t i = 0; i < 10; ++i) {
+    EXPECT_LT(glm::distance(model.colors[i], expected[i / 2]), 1e-6F) << i;
   }
-  EXPECT_LT(glm::distance(model.colors[2], glm::vec3(1.0F, 0.5F, 0.0F)), 1e-6F);
-  EXPECT_EQ(model.colors[2], model.colors[3]);
-  file.root()["meshes"][0]["primitives"][1]["material"] = 3;
+  file.root()["meshes"][0]["primitives"][1]["material"] = 4;
   EXPECT_NE(refusal(file.text()), "");
+}
+
+// The mean of a triangle's corners in linear light, times the base colour.
+TEST(GltfFile, TakesTheColoursOfVertices) {
+  for (const bool normalised : {false, true}) {
+    GltfText file = square_file(6);
+    json& primitive = file.root()["meshes"][0]["primitives"][0];
+    primitive["attributes"]["COLOR_0"] =
+        normalised ? file.add(std::vector<uint8_t>{255, 0, 0, 255, 255, 0, 0, 255, 255, 0, 0, 255,
+                                                   0, 255, 0, 255},
+                              5121, "VEC4", 4, true)
+                   : file.add_vectors({1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1, 0});
+    file.root()["materials"] = {
+        {{"pbrMetallicRoughness", {{"baseColorFactor", {0.2140411, 1, 1, 1}}}}}};
+    primitive["material"] = 0;
+    const PolygonModel model = parse_bytes(file.text());
+    ASSERT_EQ(model.colors.size(), 2U);
+    EXPECT_LT(glm::distance(model.colors[0], glm::vec3(0.5F, 0.0F, 0.0F)), 1e-6F);
+    EXPECT_LT(glm::distance(model.colors[1], srgb_color({0.2140411 * 2.0 / 3.0, 1.0 / 3.0, 0.0})),
+              1e-6F);
+    primitive["attributes"]["COLOR_0"] = file.add_vectors({1, 0, 0});
+    EXPECT_NE(refusal(file.text()).find("not a colour for each vertex"), std::string::npos);
+  }
 }
 
 }  // namespace

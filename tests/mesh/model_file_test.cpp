@@ -119,6 +119,16 @@ TEST(ModelFile, TakesTheColoursOfPly) {
   EXPECT_TRUE(build_mesh(read_model(folder / "a.ply"), "a.ply").mesh.colors.empty());
 }
 
+// What some programs take for colours there others write anything into.
+TEST(ModelFile, TakesNoColoursFromStl) {
+  std::string stl = pyramid_as("stlb");
+  for (std::size_t end = 84 + 50; end <= stl.size(); end += 50) {
+    stl[end - 2] = '\x1f';
+    stl[end - 1] = '\x80';
+  }
+  EXPECT_TRUE(build_mesh(parse_by_assimp(stl, "stl", "a.stl"), "a.stl").mesh.colors.empty());
+}
+
 TEST(ModelFile, MakesNormalsForStl) {
   const BuiltMesh built = build_mesh(parse_by_assimp(pyramid_as("stlb"), "stl", "a.stl"), "a.stl");
   EXPECT_EQ(built.report.normals, NormalSource::welded);

@@ -1,6 +1,7 @@
 #include "app/mesh/obj_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <zlib.h>
 
 #include <fstream>
@@ -296,11 +297,59 @@ TEST(ObjFile, TakesTheColoursOfMaterials) {
   const glm::vec3 red(0.5F, 0.25F, 0.0F);
   EXPECT_EQ(model.colors, (std::vector<glm::vec3>{none, red, red, glm::vec3(1, 0, 1), none, none,
                                                   glm::vec3(0), none}));
-  EXPECT_EQ(model.notes, (std::vector<std::string>{
-                             "a material file outside the model's folder not read",
-                             "a material file that is not there or cannot be read left out"}));
+  EXPECT_EQ(model.notes,
+            (std::vector<std::string>{"1 material file outside the model's folder not read",
+                                      "1 material file not found, or not readable"}));
   // A file that uses none costs nothing.
   EXPECT_TRUE(parse(std::string("mtllib none.mtl\n") + kSquare + "f 1 2 3\n").colors.empty());
+}
+
+// Material files are read as OBJ files are.
+TEST(ObjFile, ReadsMaterialsAsTheyAreWritten) {
+  const test::TemporaryFolder folder;
+  const auto color_of = [&](const std::string& materials, const std::string& material) {
+    std::ofstream(folder / "a.mtl", std::ios::binary) << materials;
+    std::ofstream(folder / "b.mtl") << "newmtl other\nKd 0 0 1\n";
+    std::ofstream(folder / "m.obj") << "mtllib a.mtl b.mtl\n"
+                                    << kSquare << "f 1 2 3\nusemtl " << material << "\nf 1 3 4\n";
+    const PolygonModel model = read_obj(folder / "m.obj");
+    EXPECT_TRUE(model.notes.empty());
+    if (model.colors.empty()) return PolygonModel::no_color;
+    EXPECT_EQ(model.colors[0], PolygonModel::no_color);
+    return model.colors[1];
+  };
+  const glm::vec3 red(1, 0, 0);
+  EXPECT_EQ(color_of("newmtl a\nKd 1 0 0\n", "a"), red);
+  EXPECT_EQ(color_of("newmtl a\nKd 1 0 0\n", "other"), glm::vec3(0, 0, 1));
+  EXPECT_EQ(color_of("\xEF\xBB\xBFnewmtl a\rKd 1 0 0 # red\r", "a"), red);
+  EXPECT_EQ(
+      color_of("newmtl Material #25\nKd 1 0 0\nnewmtl Material #26\nKd 0 1 0", "Material #25"),
+      red);
+  EXPECT_EQ(color_of("newmtl a\nKd 0.5\n", "a"), glm::vec3(0.5F));
+  EXPECT_EQ(color_of("Kd 0 1 0\nnewmtl a\nKd 1 0 0\nnewmtl\nKd 0 1 0\n", "a"), red);
+  EXPECT_EQ(color_of("newmtl a\nKd spectral file.rfl\n", "a"), PolygonModel::no_color);
+  std::string wide("\xFF\xFE");
+  for (const char c : std::string("newmtl a\nKd 1 0 0\n")) wide.append({c, '\0'});
+  EXPECT_EQ(color_of(wide, "a"), red);
+}
+
+// What leads out of the folder is not read, nor what is no file.
+TEST(ObjFile, ReadsNoMaterialsFromElsewhere) {
+  const test::TemporaryFolder folder;
+  const test::TemporaryFolder other;
+  std::ofstream(other / "x.mtl") << "newmtl a\nKd 1 1 1\n";
+  std::filesystem::create_symlink(other.path(), folder.path() / "link");
+  std::filesystem::create_symlink("/dev/zero", folder.path() / "zero.mtl");
+  ASSERT_EQ(mkfifo((folder / "pipe.mtl").c_str(), 0600), 0);
+  for (const std::string& library :
+       std::vector<std::string>{"link/x.mtl", "zero.mtl", "pipe.mtl", (other / "x.mtl"), ".",
+                                std::string(5000, 'x'), ""}) {
+    std::ofstream(folder / "m.obj") << "mtllib " << library << "\n"
+                                    << kSquare << "usemtl a\nf 1 2 3\n";
+    const PolygonModel model = read_obj(folder / "m.obj");
+    EXPECT_TRUE(model.colors.empty()) << library;
+    EXPECT_EQ(model.notes.size(), 1U) << library;
+  }
 }
 
 }  // namespace

@@ -48,9 +48,7 @@ ProgramRun run(const std::vector<std::string>& arguments,
   const std::string out = folder / "out";
   const std::string err = folder / "err";
 
-  // The program lies beside the test.
-  const std::string program =
-      std::filesystem::read_symlink("/proc/self/exe").replace_filename("trisect").string();
+  const std::string program = program_path();
   std::vector<std::string> words{program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -105,6 +103,10 @@ ProgramRun run(const std::vector<std::string>& arguments,
 }
 
 }  // namespace
+
+std::string program_path() {
+  return std::filesystem::read_symlink("/proc/self/exe").replace_filename("trisect").string();
+}
 
 ProgramRun run_trisect(const std::vector<std::string>& arguments,
                        const std::vector<std::string>& environment, int seconds_at_most) {

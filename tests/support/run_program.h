@@ -12,6 +12,9 @@ struct ProgramRun {
   std::string err;
 };
 
+// The program, which lies beside the test.
+std::string program_path();
+
 // environment: entries "NAME=value" that add to this process's or replace them; of two of a name
 // the last one. seconds_at_most: SIGKILL ends a program that takes longer; 0 for any time.
 ProgramRun run_trisect(const std::vector<std::string>& arguments,

@@ -159,11 +159,43 @@ TEST_F(Shading, IsTheSameOnEveryBackEnd) {
       SCOPED_TRACE(backend_name(backend));
       const test::FrameDifference d = test::difference(vulkan, traced(backend, shadows));
       EXPECT_EQ(d.hit_mismatches, 0U);
-      // The border of a shadow or of a grid's line may be on another side of a pixel's centre for
-      // the oracle.
-      EXPECT_LE(d.color, backend == Backend::oracle && shadows ? 1.0 : 1e-4);
+      // For the oracle the border of a grid's line may be on another side of a pixel's centre.
+      EXPECT_LE(d.color, backend == Backend::oracle && shading == SHADING_GRID ? 1.0 : 1e-4);
     }
   }
+}
+
+// Where the light does not come there is what comes from all around, in the triangle's colour.
+TEST_F(Shading, LeavesShapeInShadows) {
+  give_colors();
+  settings_.light = glm::dvec3(-1.0, -0.3, -0.2);
+  const Frame lit = traced(Backend::vulkan);
+  const Frame shaded = traced(Backend::vulkan, true);
+  std::size_t in_shadow = 0;
+  for (std::size_t i = 0; i < lit.colors.size(); ++i) {
+    const PixelAovs& aovs = shaded.aovs[i];
+    if (aovs.triangle == NO_TRIANGLE) continue;
+    const vec3 own = aovs.triangle % 3 == 0   ? vec3(1, 0, 0)
+                     : aovs.triangle % 3 == 1 ? vec3(0, 1, 0.5F)
+                                              : vec3(settings_.color);
+    const vec3 left = own * std::sqrt(0.1F + 0.06F * aovs.normal_z.y);
+    if (glm::distance(color_at(shaded, i), left) < 1e-5F) {
+      ++in_shadow;
+    } else {
+      EXPECT_EQ(color_at(shaded, i), color_at(lit, i));
+    }
+  }
+  EXPECT_GT(in_shadow, 500U);
+}
+
+// A number for everything that can be seen, from however far away.
+TEST_F(Shading, OfDepthIsANumberFromAnywhere) {
+  settings_.shading = SHADING_DEPTH;
+  settings_.camera.eye = settings_.camera.target + glm::dvec3(1e9, 0.0, 0.0);
+  settings_.camera.fov = 1e-6;
+  settings_.width = settings_.height = 1;
+  const TraceParams params = make_params(scene_, settings_);
+  EXPECT_GT(params.depth_high, params.depth_low);
 }
 
 TEST_F(Shading, LeavesABackgroundThatIsNoneBlack) {

@@ -211,6 +211,10 @@ TEST(WithFlags, KeepsWhatIsNotSaid) {
     expected.shadows = false;
     expected.spp = 1;
     expected.accel.reset();
+    expected.shading.reset();
+    expected.color.reset();
+    expected.background.reset();
+    expected.background_color = glm::dvec3(0.0);
     expect_same(with_flags(base, text), expected);
   }
   RenderOptions bisecting;

@@ -1,0 +1,99 @@
+#include "app/cli/output.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "app/base/error.h"
+#include "app/cli/distinct_files.h"
+
+namespace trisect {
+namespace {
+
+enum class Told { standard_output, standard_error, nothing };
+
+// A process has one standard output.
+Told told = Told::standard_output;
+
+void write_to(std::FILE* stream, std::string_view bytes) {
+  errno = 0;
+  const std::size_t written = std::fwrite(bytes.data(), 1, bytes.size(), stream);
+  if (written == bytes.size() && std::fflush(stream) == 0) return;
+  throw InputError(fmt::format("standard output: cannot be written: {}.",
+                               std::generic_category().message(errno)));
+}
+
+// Where an output waits for being whole before it goes to standard output.
+std::filesystem::path waiting_place() {
+  return std::filesystem::temp_directory_path() / fmt::format("trisect-{}", getpid());
+}
+
+// Makes the folder of a file.
+void make_folder(const std::filesystem::path& file) {
+  if (!file.has_parent_path()) return;
+  std::error_code error;
+  std::filesystem::create_directories(file.parent_path(), error);
+  if (error) {
+    throw InputError(fmt::format("{}: the folder cannot be made: {}.", file.parent_path().string(),
+                                 error.message()));
+  }
+}
+
+}  // namespace
+
+void begin_outputs(const std::vector<std::string>& read, const std::vector<std::string>& written) {
+  if (std::count(written.begin(), written.end(), kStandardOutput) > 1) {
+    throw UsageError("-: standard output takes one output.");
+  }
+  expect_distinct(read, written);
+  const bool has_data = std::find(written.begin(), written.end(), kStandardOutput) != written.end();
+  if (has_data && told == Told::standard_output) told = Told::standard_error;
+}
+
+void be_quiet() {
+  told = Told::nothing;
+}
+
+void tell(std::string_view text) {
+  if (told == Told::standard_output) write_to(stdout, text);
+  if (told == Told::standard_error) std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+ImageFormat output_format(const std::string& name) {
+  return name == kStandardOutput ? ImageFormat::png : image_format(name);
+}
+
+Output::Output(const std::string& name) : is_standard_(name == kStandardOutput) {
+  if (!is_standard_) make_folder(name);
+  file_.emplace(is_standard_ ? waiting_place() : std::filesystem::path(name));
+}
+
+void Output::commit() {
+  if (!is_standard_) {
+    file_->commit();
+    return;
+  }
+  std::ifstream stream(file_->temporary(), std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  write_to(stdout, bytes);
+}
+
+OptionalOutput::OptionalOutput(const std::string& name) {
+  if (!name.empty()) output_.emplace(name);
+}
+
+void OptionalOutput::write(const std::string& text) const {
+  if (output_) output_->file().write(text);
+}
+
+void OptionalOutput::commit() {
+  if (output_) output_->commit();
+}
+
+}  // namespace trisect
