@@ -66,7 +66,8 @@ glm::dvec3 parse_direction(const std::string& option, const std::string& text) {
   return direction;
 }
 
-glm::dvec3 parse_color(const std::string& option, const std::string& text) {
+glm::dvec3 parse_color(const std::string& option, const std::string& text,
+                       const std::string& or_else) {
   std::string_view rest = text;
   glm::dvec3 value(0.0);
   const bool parsed = take_number(rest, value.x) && take_character(rest, ',') &&
@@ -74,8 +75,9 @@ glm::dvec3 parse_color(const std::string& option, const std::string& text) {
                       take_number(rest, value.z) && rest.empty();
   const auto is_share = [](double x) { return x >= 0.0 && x <= 1.0; };
   if (!parsed || !is_share(value.x) || !is_share(value.y) || !is_share(value.z)) {
-    throw UsageError(fmt::format(
-        "{}: '{}' is not a colour: three numbers from 0 to 1 such as 0.5,0.7,1.", option, text));
+    throw UsageError(
+        fmt::format("{}: '{}' is not {}a colour, three numbers from 0 to 1 such as 0.5,0.7,1.",
+                    option, text, or_else));
   }
   return value;
 }

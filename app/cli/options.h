@@ -122,7 +122,9 @@ glm::dvec3 parse_direction(const std::string& option, const std::string& text);
 
 // "0.5,0.7,1": a colour. Throws UsageError, naming the option, for anything but three numbers from
 // 0 to 1.
-glm::dvec3 parse_color(const std::string& option, const std::string& text);
+// or_else: what else the option takes, for the message.
+glm::dvec3 parse_color(const std::string& option, const std::string& text,
+                       const std::string& or_else = "");
 
 // The back end of that name. Throws UsageError, naming the option, if there is none.
 Backend backend_named(const std::string& option, std::string_view name);

@@ -179,8 +179,12 @@ void parse_scene(const SceneText& text, RenderOptions& options) {
                          : *text.background == "transparent" ? Background::none
                                                              : Background::color;
     if (options.background == Background::color) {
-      options.background_color = parse_color("--background", *text.background);
+      options.background_color =
+          parse_color("--background", *text.background, "sky, transparent or ");
     }
+  }
+  if (options.color && !is_lit(options.shading.value_or(SHADING_PLAIN))) {
+    throw UsageError("--color: a surface with --shading normal, patch or depth has others.");
   }
   if (options.shadows && !is_lit(options.shading.value_or(SHADING_PLAIN))) {
     throw UsageError(

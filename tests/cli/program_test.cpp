@@ -174,10 +174,11 @@ TEST_F(Program, LightsFromADirection) {
   expect_complaint(render({"--light", "0,0,0"}), 2, "no direction");
   expect_complaint(render({"--shading", "shiny"}), 2, "--shading: 'shiny' is not one of: plain");
   for (const char* color : {"", "1", "0,0,1.01", "0,-0.1,0", "nan,0,0", "0,0,0,0", "blue"}) {
-    expect_complaint(render({"--color", color}), 2, "is not a colour");
-    expect_complaint(render({"--background", color}), 2, "is not a colour");
+    expect_complaint(render({"--color", color}), 2, "' is not a colour, three numbers");
+    expect_complaint(render({"--background", color}), 2, "' is not sky, transparent or a colour");
   }
   expect_complaint(render({"--shadows", "--shading", "depth"}), 2, "no light falls");
+  expect_complaint(render({"--color", "1,0,0", "--shading", "patch"}), 2, "has others");
   ASSERT_EQ(render({"--light", "0,0,1"}, "front.exr").exit_code, 0);
   ASSERT_EQ(render({"--light", "0,0,-5"}, "back.exr").exit_code, 0);
   const Frame front = test::read_exr(folder_ / "front.exr");
