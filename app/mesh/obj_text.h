@@ -34,8 +34,9 @@ class Lines {
     std::string_view words = line_;
     key_ = take_word(words);
     constexpr std::array<std::string_view, 3> of_materials{"usemtl", "newmtl", "mtllib"};
-    if (std::find(of_materials.begin(), of_materials.end(), key_) != of_materials.end())
+    if (std::find(of_materials.begin(), of_materials.end(), key_) != of_materials.end()) {
       return true;
+    }
     line_ = without_comment(line_);
     words = line_;
     key_ = take_word(words);
