@@ -30,6 +30,15 @@ bool take_character(std::string_view& text, char c) {
 
 constexpr Backend kBackends[] = {Backend::vulkan, Backend::opengl, Backend::cpu, Backend::oracle};
 
+// "1,-2.5,3e2"; nothing for any other text.
+std::optional<glm::dvec3> three_numbers(std::string_view text) {
+  glm::dvec3 value(0.0);
+  const bool parsed = take_number(text, value.x) && take_character(text, ',') &&
+                      take_number(text, value.y) && take_character(text, ',') &&
+                      take_number(text, value.z) && text.empty();
+  return parsed ? std::optional(value) : std::nullopt;
+}
+
 }  // namespace
 
 void parse_size(const std::string& option, const std::string& text, uint32_t& width,
@@ -45,19 +54,15 @@ void parse_size(const std::string& option, const std::string& text, uint32_t& wi
 }
 
 glm::dvec3 parse_triple(const std::string& option, const std::string& text) {
-  std::string_view rest = text;
-  glm::dvec3 value(0.0);
-  const bool parsed = take_number(rest, value.x) && take_character(rest, ',') &&
-                      take_number(rest, value.y) && take_character(rest, ',') &&
-                      take_number(rest, value.z) && rest.empty();
+  const std::optional<glm::dvec3> value = three_numbers(text);
   // Well beyond the coordinates that the bake allows a model. NaN fails the comparisons below.
   constexpr double largest = 1e12;
-  const glm::dvec3 size = glm::abs(value);
-  if (!parsed || !(size.x <= largest && size.y <= largest && size.z <= largest)) {
+  const auto fits = [](double x) { return std::abs(x) <= largest; };
+  if (!value || !fits(value->x) || !fits(value->y) || !fits(value->z)) {
     throw UsageError(fmt::format("{}: '{}' is not three numbers such as 1,2.5,-3 of at most {:g}.",
                                  option, text, largest));
   }
-  return value;
+  return *value;
 }
 
 glm::dvec3 parse_direction(const std::string& option, const std::string& text) {
@@ -68,18 +73,19 @@ glm::dvec3 parse_direction(const std::string& option, const std::string& text) {
 
 glm::dvec3 parse_color(const std::string& option, const std::string& text,
                        const std::string& or_else) {
-  std::string_view rest = text;
-  glm::dvec3 value(0.0);
-  const bool parsed = take_number(rest, value.x) && take_character(rest, ',') &&
-                      take_number(rest, value.y) && take_character(rest, ',') &&
-                      take_number(rest, value.z) && rest.empty();
+  const std::optional<glm::dvec3> value = three_numbers(text);
   const auto is_share = [](double x) { return x >= 0.0 && x <= 1.0; };
-  if (!parsed || !is_share(value.x) || !is_share(value.y) || !is_share(value.z)) {
+  if (!value || !is_share(value->x) || !is_share(value->y) || !is_share(value->z)) {
     throw UsageError(
         fmt::format("{}: '{}' is not {}a colour, three numbers from 0 to 1 such as 0.5,0.7,1.",
                     option, text, or_else));
   }
-  return value;
+  return *value;
+}
+
+std::string background_text(Background background, const glm::dvec3& color) {
+  return background == Background::color ? fmt::format("{},{},{}", color.x, color.y, color.z)
+                                         : background_name(background);
 }
 
 Backend backend_named(const std::string& option, std::string_view name) {

@@ -126,6 +126,9 @@ glm::dvec3 parse_direction(const std::string& option, const std::string& text);
 glm::dvec3 parse_color(const std::string& option, const std::string& text,
                        const std::string& or_else = "");
 
+// A background as --background has it.
+std::string background_text(Background background, const glm::dvec3& color);
+
 // The back end of that name. Throws UsageError, naming the option, if there is none.
 Backend backend_named(const std::string& option, std::string_view name);
 

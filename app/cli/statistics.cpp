@@ -19,14 +19,6 @@ Spread spread_over(const std::vector<FrameTime>& frames, double FrameTime::*time
   return spread_of(std::move(values));
 }
 
-// As --background has it.
-std::string background_text(const RenderStatistics& statistics) {
-  const glm::dvec3& color = statistics.background_color;
-  return statistics.background == Background::color
-             ? fmt::format("{},{},{}", color.x, color.y, color.z)
-             : background_name(statistics.background);
-}
-
 }  // namespace
 
 Spread spread_of(std::vector<double> values) {
@@ -85,7 +77,7 @@ std::string to_json(const RenderOptions& options, const RenderStatistics& statis
   json["light"] = triple(statistics.light);
   json["shading"] = shading_name(statistics.shading);
   json["color"] = options.color ? triple(*options.color) : nlohmann::ordered_json();
-  json["background"] = background_text(statistics);
+  json["background"] = background_text(statistics.background, statistics.background_color);
   json["crease"] = options.mesh.crease_degrees
                        ? nlohmann::ordered_json(*options.mesh.crease_degrees)
                        : nlohmann::ordered_json();
@@ -105,29 +97,30 @@ std::string to_json(const RenderOptions& options, const RenderStatistics& statis
 
 std::vector<ImageAttribute> attributes_of(const RenderOptions& options,
                                           const RenderStatistics& statistics) {
-  std::vector<ImageAttribute> attributes{{"program", std::string("trisect ") + TRISECT_VERSION},
-                                         {"commit", commit()},
-                                         {"device", statistics.device},
-                                         {"driver", statistics.driver},
-                                         {"backend", std::string(backend_name(options.backend))},
-                                         {"model", options.model},
-                                         {"surface", std::string(surface_name(options.surface))},
-                                         {"alpha", options.alpha},
-                                         {"shell", std::string(shell_name(options.shell))},
-                                         {"solver", std::string(solver_name(options.solver))},
-                                         {"rank", static_cast<int>(options.rank)},
-                                         {"accel", std::string(accel_name(statistics.accel))},
-                                         {"eye", statistics.camera.eye},
-                                         {"target", statistics.camera.target},
-                                         {"up", statistics.camera.up},
-                                         {"fov", statistics.camera.fov},
-                                         {"light", statistics.light},
-                                         {"shading", std::string(shading_name(statistics.shading))},
-                                         {"background", background_text(statistics)},
-                                         {"shadows", static_cast<int>(options.shadows)},
-                                         {"spp", static_cast<int>(options.spp)},
-                                         {"weld", options.mesh.weld},
-                                         {"repair", static_cast<int>(options.mesh.repair)}};
+  std::vector<ImageAttribute> attributes{
+      {"program", std::string("trisect ") + TRISECT_VERSION},
+      {"commit", commit()},
+      {"device", statistics.device},
+      {"driver", statistics.driver},
+      {"backend", std::string(backend_name(options.backend))},
+      {"model", options.model},
+      {"surface", std::string(surface_name(options.surface))},
+      {"alpha", options.alpha},
+      {"shell", std::string(shell_name(options.shell))},
+      {"solver", std::string(solver_name(options.solver))},
+      {"rank", static_cast<int>(options.rank)},
+      {"accel", std::string(accel_name(statistics.accel))},
+      {"eye", statistics.camera.eye},
+      {"target", statistics.camera.target},
+      {"up", statistics.camera.up},
+      {"fov", statistics.camera.fov},
+      {"light", statistics.light},
+      {"shading", std::string(shading_name(statistics.shading))},
+      {"background", background_text(statistics.background, statistics.background_color)},
+      {"shadows", static_cast<int>(options.shadows)},
+      {"spp", static_cast<int>(options.spp)},
+      {"weld", options.mesh.weld},
+      {"repair", static_cast<int>(options.mesh.repair)}};
   if (options.backend == Backend::opengl) {
     attributes.push_back({"gl_path", std::string(gl_path_name(options.gl_path))});
   }

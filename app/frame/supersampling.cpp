@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/frame/srgb.h"
+#include "app/base/srgb.h"
 
 namespace trisect {
 namespace {

@@ -377,16 +377,14 @@ class GltfScene {
       add_color(first, base ? std::optional(srgb_color(*base)) : std::nullopt, model_);
       return;
     }
-    std::vector<glm::vec3> colors;
+    model_.colors.resize(first, PolygonModel::no_color);
     for (std::size_t corner = 3 * first; corner + 2 < model_.corners.size(); corner += 3) {
       dvec3 sum(0.0);
       for (std::size_t k = corner; k < corner + 3; ++k) {
         sum += vertex_colors->vector(model_.corners[k].position - first_vertex);
       }
-      colors.push_back(srgb_color(sum / 3.0 * base.value_or(dvec3(1.0))));
+      model_.colors.push_back(polygon_color(srgb_color(sum / 3.0 * base.value_or(dvec3(1.0)))));
     }
-    model_.colors.resize(first, PolygonModel::no_color);
-    for (const glm::vec3& color : colors) add_one_color(color, model_);
   }
 
   // Adds the morph targets' parts to an attribute.

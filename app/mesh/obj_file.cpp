@@ -292,7 +292,7 @@ void add_material_colors(const OrderedText& text, const std::filesystem::path& f
     if (found == colors.end()) continue;
     std::fill(model.colors.begin() + static_cast<std::ptrdiff_t>(text.materials[i].first),
               model.colors.begin() + static_cast<std::ptrdiff_t>(end),
-              glm::clamp(found->second, 0.0F, 1.0F));
+              polygon_color(found->second));
   }
 }
 

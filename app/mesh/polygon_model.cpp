@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "app/base/srgb.h"
+
 namespace trisect {
 
 glm::dmat3 matrix_for_normals(const glm::dmat3& m) {
@@ -20,35 +22,22 @@ bool add_vertex(const glm::dvec3& position, const glm::dvec3* normal, PolygonMod
   return is_finite(position);
 }
 
-namespace {
-
-// Held within 0 and 1. Written so that a NaN is no colour.
-glm::vec3 held(const glm::vec3& color) {
+glm::vec3 polygon_color(const glm::vec3& color) {
+  // Written so that a NaN is no colour.
   return color.x + color.y + color.z > -1e30F ? glm::clamp(color, 0.0F, 1.0F)
                                               : PolygonModel::no_color;
 }
-
-}  // namespace
 
 void add_color(std::size_t first, const std::optional<glm::vec3>& color, PolygonModel& model) {
   if (!color && model.colors.empty()) return;
   // Earlier polygons may have come without one.
   model.colors.resize(first, PolygonModel::no_color);
-  model.colors.resize(model.sizes.size(), color ? held(*color) : PolygonModel::no_color);
-}
-
-void add_one_color(const glm::vec3& color, PolygonModel& model) {
-  model.colors.push_back(held(color));
+  model.colors.resize(model.sizes.size(), color ? polygon_color(*color) : PolygonModel::no_color);
 }
 
 glm::vec3 srgb_color(const glm::dvec3& linear) {
-  glm::vec3 encoded;
-  for (int i = 0; i < 3; ++i) {
-    const double x = linear[i];
-    encoded[i] =
-        static_cast<float>(x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055);
-  }
-  return encoded;
+  const glm::vec3 single(linear);
+  return {srgb_from_linear(single.x), srgb_from_linear(single.y), srgb_from_linear(single.z)};
 }
 
 void note_left_out(std::size_t count, const char* what, PolygonModel& model) {

@@ -65,8 +65,8 @@ bool add_vertex(const glm::dvec3& position, const glm::dvec3* normal, PolygonMod
 // Gives the polygons from `first` on this colour, whose components are held within 0 and 1.
 void add_color(std::size_t first, const std::optional<glm::vec3>& color, PolygonModel& model);
 
-// Gives the next polygon that has none yet this colour.
-void add_one_color(const glm::vec3& color, PolygonModel& model);
+// A colour of a file as one of PolygonModel::colors: held within 0 and 1, no_color for a NaN.
+glm::vec3 polygon_color(const glm::vec3& color);
 
 // A colour in linear light as the sRGB-encoded one.
 glm::vec3 srgb_color(const glm::dvec3& linear);

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "app/base/error.h"
-#include "app/frame/srgb.h"
+#include "app/base/srgb.h"
 #include "app/picture/image_file.h"
 
 namespace trisect {

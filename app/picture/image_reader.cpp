@@ -1,5 +1,5 @@
 #include "app/picture/image_reader.h"
-#include "app/frame/srgb.h"
+#include "app/base/srgb.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>

@@ -66,9 +66,7 @@ std::string flags_of(const RenderOptions& options) {
   if (options.shading) add("--shading", shading_name(*options.shading));
   if (options.color) add("--color", triple(*options.color));
   if (options.background) {
-    add("--background", *options.background == Background::color
-                            ? triple(options.background_color)
-                            : background_name(*options.background));
+    add("--background", background_text(*options.background, options.background_color));
   }
   if (options.spp != 1) add("--spp", std::to_string(options.spp));
   const MeshOptions& mesh = options.mesh;

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "app/frame/srgb.h"
+#include "app/base/srgb.h"
 #include "app/picture/image_file.h"
 #include "tests/support/exr_reader.h"
 #include "tests/support/file_content.h"

@@ -1,5 +1,5 @@
 #include "app/picture/image_file.h"
-#include "app/frame/srgb.h"
+#include "app/base/srgb.h"
 
 #include <gtest/gtest.h>
 #include <png.h>

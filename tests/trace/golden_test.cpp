@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/base/srgb.h"
 #include "app/cli/data_folder.h"
-#include "app/frame/srgb.h"
 #include "app/picture/image_file.h"
 #include "tests/support/exr_reader.h"
 #include "tests/support/frame_difference.h"

@@ -1,4 +1,4 @@
-#include "app/frame/srgb.h"
+#include "app/base/srgb.h"
 
 #include <cmath>
 
