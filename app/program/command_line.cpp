@@ -1,0 +1,321 @@
+#include "app/program/command_line.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/base/error.h"
+#include "app/bench/command_line.h"
+#include "app/cli/command_options.h"
+#include "app/cli/commands.h"
+#include "app/cli/output.h"
+#include "app/cli/scene_options.h"
+#include "app/view/command_line.h"
+
+namespace trisect {
+namespace {
+
+using Command = CommandLine::Command;
+
+// A command whose parsed options are `Values`.
+template <typename Values>
+struct Added {
+  CLI::App& command;
+  std::shared_ptr<Values> values;
+};
+
+// The last of a repeated option counts, also of those that the command gets later.
+template <typename Values>
+Added<Values> add_command(CLI::App& app, const std::string& name, const std::string& what) {
+  CLI::App* command = app.add_subcommand(name, what);
+  command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  return {*command, std::make_shared<Values>()};
+}
+
+// Adds --quiet to a command and its own.
+void add_quiet(CLI::App& command) {
+  const std::vector<CLI::App*> own = command.get_subcommands({});
+  for (CLI::App* sub : own) add_quiet(*sub);
+  if (own.empty()) {
+    command.add_flag_callback("-q,--quiet", be_quiet, "Say nothing but what is wrong");
+  }
+}
+
+void add_model(CLI::App& command, std::string& model) {
+  command.add_option("MODEL", model, "OBJ, glTF, PLY, STL or FBX file")->required();
+}
+
+void add_json(CLI::App& command, std::string& json, const std::string& what) {
+  command.add_option("--json", json, what)->check(not_empty())->type_name("FILE");
+}
+
+Command add_render(CLI::App& app) {
+  // The options, and values of options as text that is parsed after CLI11 is done.
+  struct Values {
+    RenderOptions options;
+    SceneText scene;
+    std::optional<std::string> backend;
+  };
+  const auto [command, values] =
+      add_command<Values>(app, "render", "Render a model to an image file");
+  RenderOptions& options = values->options;
+  add_scene(command, options, values->scene);
+  command
+      .add_option(
+          "-o,--output", options.output,
+          "Image to write: .png (8-bit sRGB) or .exr (linear float, with AOVs); - writes PNG to "
+          "standard output")
+      ->required()
+      ->type_name("FILE");
+  command
+      .add_option("--backend", values->backend,
+                  "Who traces: vulkan, opengl, cpu (the same kernel as C++) or oracle (double "
+                  "precision, slow), default vulkan")
+      ->check(one_of({"vulkan", "opengl", "cpu", "oracle"}))
+      ->type_name("NAME");
+  command.add_flag("--validation", options.validation,
+                   "Run under the Vulkan validation layer, fail on any message");
+  add_spp(command, options.spp);
+  command
+      .add_option("--runs", options.runs,
+                  "Frames to time after a warm-up; without it one, which is not preceded by any")
+      ->check(number_from_to(1, 1000000))
+      ->type_name("N");
+  command.add_flag(
+      "--evals", options.evals,
+      "Count evaluations of the surface: EXR channel evals, evals_total in the figures");
+  command.add_option("--stats", options.stats, "Write the figures as JSON")
+      ->check(not_empty())
+      ->type_name("FILE.json");
+  return {&command, [values = values] {
+            parse_scene(values->scene, values->options);
+            if (values->backend) {
+              values->options.backend = backend_named("--backend", *values->backend);
+            }
+            return render(values->options);
+          }};
+}
+
+Command add_accuracy(CLI::App& app) {
+  struct Values {
+    AccuracyOptions options;
+    std::optional<std::string> size;
+    std::optional<std::string> surface;
+    std::optional<std::string> shell;
+  };
+  const auto [command, values] = add_command<Values>(
+      app, "accuracy", "Compare the solvers with the double-precision oracle, pixel by pixel");
+  add_models(command, values->options.models);
+  add_size(command, values->size, "800x600");
+  add_surfaces(command, values->surface);
+  command.add_option("--shell", values->shell, "normal or height, default both")
+      ->check(one_of({"normal", "height"}))
+      ->type_name("NAME");
+  add_device(command, values->options.device);
+  add_table_json(command, values->options.json);
+  return {&command, [values = values] {
+            AccuracyOptions& options = values->options;
+            if (values->size) parse_size("--size", *values->size, options.width, options.height);
+            if (values->surface) options.surfaces = {surface_of(*values->surface)};
+            if (values->shell) options.shells = {shell_of(*values->shell)};
+            return accuracy(options);
+          }};
+}
+
+Command add_hardcases(CLI::App& app) {
+  struct Values {
+    HardcasesOptions options;
+    std::string backend;
+  };
+  const auto [command, values] =
+      add_command<Values>(app, "hardcases", "Measure the solvers on a catalogue of hard cases");
+  add_table_json(command, values->options.json);
+  command.add_option("--backend", values->backend, "Who traces: vulkan or cpu, default vulkan")
+      ->check(one_of({"vulkan", "cpu"}))
+      ->type_name("NAME");
+  add_device(command, values->options.device);
+  return {&command, [values = values] {
+            if (values->backend == "cpu") values->options.backend = Backend::cpu;
+            return hardcases(values->options);
+          }};
+}
+
+// Adds --json and --diff to a command that compares frames.
+void add_comparison_files(CLI::App& command, std::string& json, std::string& diff) {
+  add_json(command, json, "Write the figures as JSON");
+  command
+      .add_option("--diff", diff,
+                  "Write a picture (.png or .exr): both images, their difference amplified, and "
+                  "where hits, triangles or Z differ")
+      ->check(not_empty())
+      ->type_name("FILE");
+}
+
+Command add_crosscheck(CLI::App& app) {
+  struct Values {
+    CrosscheckOptions options;
+    SceneText scene;
+    std::optional<std::string> backends;
+  };
+  const auto [command, values] = add_command<Values>(
+      app, "crosscheck", "Render a model with several back ends and compare the frames");
+  add_scene(command, values->options.render, values->scene);
+  command
+      .add_option("--backends", values->backends,
+                  "Two or more of vulkan, opengl, cpu, oracle, default vulkan,opengl")
+      ->type_name("A,B,...");
+  add_comparison_files(command, values->options.json, values->options.diff);
+  return {&command, [values = values] {
+            CrosscheckOptions& options = values->options;
+            parse_scene(values->scene, options.render);
+            if (values->backends) {
+              options.backends = parse_backends("--backends", *values->backends);
+            }
+            return crosscheck(options);
+          }};
+}
+
+Command add_compare(CLI::App& app) {
+  struct Values {
+    CompareOptions options;
+    std::vector<std::string> thresholds;
+  };
+  const auto [command, values] =
+      add_command<Values>(app, "compare", "Compare two images, PNG or EXR, of the same size");
+  command.add_option("A", values->options.a, "Image")->required();
+  command.add_option("B", values->options.b, "Image")->required();
+  command
+      .add_option("--threshold", values->thresholds,
+                  "The most of it that is well: hit_mismatches and patch_mismatches (parts of the "
+                  "pixels, default 0), color_max (8-bit steps, default 1), color_rmse, z_differs "
+                  "(part of the hits, both default anything)")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("NAME=X");
+  add_comparison_files(command, values->options.json, values->options.diff);
+  return {&command, [values = values] {
+            for (const std::string& threshold : values->thresholds) {
+              parse_threshold("--threshold", threshold, values->options.tolerance);
+            }
+            return compare_images(values->options);
+          }};
+}
+
+Command add_info(CLI::App& app) {
+  struct Values {
+    InfoOptions options;
+    std::optional<std::string> surface;
+  };
+  const auto [command, values] = add_command<Values>(
+      app, "info",
+      "Say what a model is like, what its curved surfaces will be like, and what to look at");
+  add_model(command, values->options.model);
+  add_mesh_options(command, values->options.mesh);
+  command.add_option("--surface", values->surface, "Of which: phong or sphere, default phong")
+      ->check(one_of({"phong", "sphere"}))
+      ->type_name("NAME");
+  add_json(command, values->options.json, "Write it as JSON");
+  return {&command, [values = values] {
+            if (values->surface) values->options.surface = surface_of(*values->surface);
+            return info(values->options);
+          }};
+}
+
+Command add_export(CLI::App& app) {
+  struct Values {
+    ExportOptions options;
+    std::optional<std::string> surface;
+  };
+  const auto [command, values] = add_command<Values>(
+      app, "export", "Write a model's curved surface as flat triangles, for other programs");
+  ExportOptions& options = values->options;
+  add_model(command, options.model);
+  command.add_option("-o,--output", options.output, "File to write: .obj, .ply, .stl or .glb")
+      ->required()
+      ->type_name("FILE");
+  add_mesh_options(command, options.mesh);
+  command
+      .add_option("--surface", values->surface, "Of which: flat, phong or sphere, default phong")
+      ->check(one_of({"flat", "phong", "sphere"}))
+      ->type_name("NAME");
+  add_alpha(command, options.alpha);
+  CLI::Option_group* how = command.add_option_group("how fine");
+  how->add_option("--subdivide", options.subdivide, "N x N flat triangles for each of the model's")
+      ->check(number_from_to(1, 4000))
+      ->type_name("N");
+  how->add_option("--error", options.error,
+                  "As many as it takes to be off the surface by no more than this, in the model's "
+                  "units")
+      ->check(number_from_to(1e-300, 1e9))
+      ->type_name("EPS");
+  how->require_option(1);
+  add_json(command, options.json, "Write the figures as JSON");
+  return {&command, [values = values] {
+            if (values->surface) values->options.surface = surface_of(*values->surface);
+            return export_mesh(values->options);
+          }};
+}
+
+Command add_devices(CLI::App& app) {
+  const auto [command, options] = add_command<DevicesOptions>(
+      app, "devices", "List the Vulkan devices, and what those that cannot be used lack");
+  command.add_flag("--floats", options->floats,
+                   "Measure what the arithmetic of usable devices does: errors, contraction, "
+                   "denormals, NaN");
+  add_device(command, options->device);
+  add_table_json(command, options->json);
+  return {&command, [options = options] { return list_devices(*options); }};
+}
+
+// Of a command that adds itself: bench and view.
+template <typename Other>
+Command add_other(CLI::App& app, const std::string& name) {
+  const auto other = std::make_shared<Other>(app);
+  return {app.get_subcommand(name), [other] { return other->run(); }};
+}
+
+}  // namespace
+
+CommandLine::CommandLine()
+    : app_("Ray-traces triangle models as smooth curved surfaces, in a Vulkan compute shader.",
+           "trisect") {
+  app_.set_version_flag("--version", std::string("trisect ") + TRISECT_VERSION);
+  app_.require_subcommand(1);
+  commands_ = {add_render(app_),
+               add_accuracy(app_),
+               add_other<bench::CommandLine>(app_, "bench"),
+               add_other<view::CommandLine>(app_, "view"),
+               add_hardcases(app_),
+               add_crosscheck(app_),
+               add_compare(app_),
+               add_info(app_),
+               add_export(app_),
+               add_devices(app_)};
+  for (CLI::App* command : app_.get_subcommands({})) {
+    if (command->get_name() != "view") add_quiet(*command);
+  }
+  app_.footer(
+      "Exit codes: 0 done, 1 farther apart than promised, 2 usage, 3 bad input, 4 no usable "
+      "device, 5 device lost, 6 out of memory, 70 internal error, 130 interrupted.");
+}
+
+int CommandLine::run(int argc, char** argv) {
+  const auto is_named = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
+  if (argc > 1 && argv[1][0] != '-' && app_.get_subcommands(is_named).empty()) {
+    throw UsageError(fmt::format("'{}' is not a command (see trisect --help)", argv[1]));
+  }
+  try {
+    app_.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app_.exit(error);
+    throw UsageError(std::string(error.what()) + " (see trisect --help)");
+  }
+  for (const Command& command : commands_) {
+    if (command.parsed->parsed()) return command.run();
+  }
+  return exit_usage;  // not reached: one command is required
+}
+
+}  // namespace trisect
