@@ -12,6 +12,7 @@
 
 #include "app/base/error.h"
 #include "app/bench/command_line.h"
+#include "app/cli/camera_path.h"
 #include "app/cli/command_options.h"
 #include "app/cli/commands.h"
 #include "app/cli/output.h"
@@ -63,6 +64,8 @@ Command add_render(CLI::App& app) {
     SceneText scene;
     std::optional<std::string> backend;
     std::optional<std::string> aovs;
+    std::optional<std::string> tile;
+    std::optional<std::string> frames;
   };
   const auto [command, values] =
       add_command<Values>(app, "render", "Render a model to an image file");
@@ -93,6 +96,27 @@ Command add_render(CLI::App& app) {
                   "What an EXR holds of each pixel, of color, Z, N, G, patch, uv, P (position) and "
                   "evals, default color,Z,N,G,patch,uv; a PFM holds one of them, default color")
       ->type_name("A,B,...");
+  command
+      .add_option("--tile", values->tile,
+                  "Render this part of the image only, x and y of its top left pixel, width and "
+                  "height; trisect stitch puts parts together")
+      ->type_name("X,Y,W,H");
+  command
+      .add_option("--turntable", options.turntable,
+                  "N frames, in which the camera goes once around the target; {frame} in the "
+                  "names of outputs becomes the frame's number")
+      ->check(number_from_to(1, static_cast<int>(kMostFrames)))
+      ->type_name("N");
+  command
+      .add_option("--camera-path", options.camera_path,
+                  "Frames along keyframes of a JSON file, see docs/sequences.md")
+      ->check(not_empty())
+      ->type_name("FILE");
+  command
+      .add_option("--frames", values->frames,
+                  "Render frames A to B of those, or frame A alone, counted from 0")
+      ->type_name("A:B");
+  command.add_flag("--resume", options.resume, "Leave out the frames whose files are there");
   command.add_flag("--validation", options.validation,
                    "Run under the Vulkan validation layer, fail on any message");
   add_spp(command, options.spp);
@@ -108,13 +132,31 @@ Command add_render(CLI::App& app) {
       ->check(not_empty())
       ->type_name("FILE.json");
   return {&command, [values = values] {
-            parse_scene(values->scene, values->options);
-            if (values->backend) {
-              values->options.backend = backend_named("--backend", *values->backend);
+            RenderOptions& parsed = values->options;
+            parse_scene(values->scene, parsed);
+            if (values->backend) parsed.backend = backend_named("--backend", *values->backend);
+            if (values->aovs) parsed.aovs = parse_aovs("--aov", *values->aovs);
+            if (values->frames) parsed.frames = parse_frames("--frames", *values->frames);
+            if (values->tile) {
+              parsed.tile = parse_part("--tile", *values->tile, parsed.width, parsed.height);
+              if (parsed.gl_path == GlPath::fragment) {
+                throw UsageError("--tile: it needs --gl-path compute.");
+              }
             }
-            if (values->aovs) values->options.aovs = parse_aovs("--aov", *values->aovs);
-            return render(values->options);
+            return render(parsed);
           }};
+}
+
+Command add_stitch(CLI::App& app) {
+  const auto [command, options] = add_command<StitchOptions>(
+      app, "stitch", "Put the parts of an image together that render --tile has made");
+  command.add_option("PART", options->parts, "Images, all PNG or all EXR")
+      ->required()
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_option("-o,--output", options->output, "Image to write, of the same format")
+      ->required()
+      ->type_name("FILE");
+  return {&command, [options = options] { return stitch_parts(*options); }};
 }
 
 Command add_accuracy(CLI::App& app) {
@@ -317,6 +359,7 @@ CommandLine::CommandLine()
   app_.set_version_flag("--version", std::string("trisect ") + TRISECT_VERSION);
   app_.require_subcommand(1);
   commands_ = {add_render(app_),
+               add_stitch(app_),
                add_accuracy(app_),
                add_other<bench::CommandLine>(app_, "bench"),
                add_other<view::CommandLine>(app_, "view"),
