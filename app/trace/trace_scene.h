@@ -76,8 +76,9 @@ std::unique_ptr<SceneTracer> make_tracer(const TraceRequest& request, const Bake
                                          const KernelChoice& choice);
 
 // Nothing if progress said stop. Throws DeviceError if there is no device or it cannot hold the
-// scene. Several threads may call it at a time, but for Backend::opengl, whose context is current
-// in one thread only while it runs.
+// scene, and std::logic_error on Vulkan if the choice needs a BVH (needs_bvh()) and the scene has
+// none: build_bvh() makes it. Several threads may call it at a time, but for Backend::opengl, whose
+// context is current in one thread only while it runs.
 std::optional<TraceResult> trace_scene(const TraceRequest& request, const BakedScene& scene,
                                        const TraceParams& params, const KernelChoice& choice,
                                        const TraceProgress& progress = {});

@@ -25,6 +25,7 @@ class Shading : public test::GpuTest {
       : mesh_(test::load_asset("torus")),
         scene_(bake_with_subpatches(mesh_, {SURFACE_PHONG, 0.65, SHELL_NORMAL})),
         settings_(test::framed(mesh_, scene_, 80, 60, 10)) {
+    scene_.bvh = build_bvh(scene_);
     settings_.solver = SOLVER_ROBUST;
   }
 
@@ -36,6 +37,7 @@ class Shading : public test::GpuTest {
                                           : vec3(-1.0F));
     }
     scene_ = bake_with_subpatches(mesh_, scene_.choice);
+    scene_.bvh = build_bvh(scene_);
   }
 
   // The frame of a back end.
