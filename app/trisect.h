@@ -22,6 +22,7 @@
 #include "app/bake/subpatch_bounds.h"
 #include "app/base/error.h"
 #include "app/base/keep_going.h"
+#include "app/crosscheck/comparison_picture.h"
 #include "app/crosscheck/frame_comparison.h"
 #include "app/dispatch/accel.h"
 #include "app/dispatch/camera.h"

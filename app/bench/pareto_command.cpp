@@ -17,7 +17,7 @@
 #include "app/cli/json_text.h"
 #include "app/cli/output.h"
 #include "app/cli/provenance.h"
-#include "app/crosscheck/frame_comparison.h"
+#include "app/crosscheck/comparison_picture.h"
 #include "app/dispatch/pipeline_store.h"
 #include "app/mesh/mesh_builder.h"
 #include "app/mesh/model_file.h"

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/cli/json_text.h"
+#include "app/crosscheck/comparison_picture.h"
 #include "app/crosscheck/frame_comparison.h"
 
 namespace trisect {
@@ -18,6 +19,7 @@ nlohmann::ordered_json to_json(const FrameComparison& c) {
     json["patch_mismatches"] = c.depth->patch_mismatches;
     json["z_pixels"] = c.depth->pixels;
     json["z_bit_equal"] = c.depth->bit_equal;
+    json["z_apart"] = json_of(c.depth->z_apart);
     json["z_ulp"] = json_of(c.depth->ulp);
     json["normal_degrees"] = json_of(c.depth->normal_degrees);
   }
@@ -46,6 +48,7 @@ nlohmann::ordered_json report_pair(const std::string& name_a, const Frame& a,
 ComparisonFiles::ComparisonFiles(const std::string& json, const std::string& diff) : json_(json) {
   if (!diff.empty()) format_ = output_format(diff);
   if (!diff.empty()) diff_.emplace(diff);
+  name_ = diff;
 }
 
 void ComparisonFiles::write(const nlohmann::ordered_json& json, const Frame& a, const Frame& b) {
@@ -53,6 +56,11 @@ void ComparisonFiles::write(const nlohmann::ordered_json& json, const Frame& a, 
   if (diff_) {
     write_image(comparison_picture(a, b), *format_, diff_->file());
     diff_->commit();
+    const double gain = comparison_gain(a, b);
+    say("{}: {}\n", name_,
+        gain > 0.0 ? fmt::format("differences are {:.3g} times as bright, white is {:.3g} of 255",
+                                 gain, 255.0 / gain)
+                   : "no colour differs");
   }
   json_.commit();
 }

@@ -30,7 +30,8 @@ class ComparisonFiles {
   void write(const nlohmann::ordered_json& json, const Frame& a, const Frame& b);
 
  private:
-  std::optional<ImageFormat> format_;  // of diff
+  std::string name_;                   // of diff
+  std::optional<ImageFormat> format_;  // the same
   OptionalOutput json_;
   std::optional<Output> diff_;
 };

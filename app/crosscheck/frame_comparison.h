@@ -18,10 +18,14 @@ struct FrameComparison {
     std::size_t patch_mismatches = 0;  // pixels that the frames hit on different triangles
     std::size_t pixels = 0;            // pixels that both hit on the same triangle; of these:
     std::size_t bit_equal = 0;  // whose Z, the distance from the eye, is the same bit for bit
-    Quantiles ulp;              // |difference of Z| in units in the last place of the first frame's
+    Quantiles z_apart;          // |difference of Z|, in the model's units
+    Quantiles ulp;              // the same in units in the last place of the first frame's
     Quantiles normal_degrees;   // angle between the geometric normals
   };
   std::size_t pixels = 0;
+  // Whether the frames say what is hit: not if they are images without AOVs and without a pixel
+  // that is transparent. The hits below are then all pixels.
+  bool tells_hits = false;
   std::size_t hits = 0;            // hit by either frame
   std::size_t hit_mismatches = 0;  // hit by one only
   std::optional<Depth> depth;
@@ -40,12 +44,5 @@ std::vector<std::string> excesses(const FrameComparison& comparison, const Toler
 
 // All figures as lines of text, for a person to read.
 std::string to_text(const FrameComparison& comparison);
-
-// Four pictures in one, twice as wide and high as the frames: a and b above; below them the
-// difference of their colours, amplified so that the largest is white, and a mask of the hits. The
-// mask is red where only one frame hits, yellow where they hit different triangles, blue where Z
-// differs, grey where they hit alike, black where neither hits. Throws InputError if the frames are
-// not of the same size.
-Frame comparison_picture(const Frame& a, const Frame& b);
 
 }  // namespace trisect

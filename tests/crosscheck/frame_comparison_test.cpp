@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "app/base/error.h"
+#include "app/base/ulp.h"
+#include "app/crosscheck/comparison_picture.h"
 
 namespace trisect {
 namespace {
@@ -56,6 +58,51 @@ TEST(FrameComparison, PicturesAmplifyTheLargestDifferenceThatIsANumber) {
   EXPECT_EQ(picture.colors[3 * 8 + 0].y, 0.0F);
   EXPECT_EQ(picture.colors[3 * 8 + 1].y, 0.5F);
   EXPECT_EQ(picture.colors[3 * 8 + 2].y, 1.0F);
+}
+
+TEST(FrameComparison, SaysHowFarZIsApartAsALengthToo) {
+  Frame a = grey(2, 1);
+  a.resize(2, 1, true);
+  for (PixelAovs& pixel : a.aovs) {
+    pixel = PixelAovs{};
+    pixel.normal_z = vec4(0.0F, 0.0F, 1.0F, 4.0F);
+    pixel.geometric_u = vec4(0.0F, 0.0F, 1.0F, 0.0F);
+  }
+  Frame b = a;
+  b.aovs[1].normal_z.w = 4.5F;
+  const FrameComparison found = compare(a, b);
+  EXPECT_EQ(found.depth->z_apart.max, 0.5);
+  EXPECT_EQ(found.depth->ulp.max, 0.5 / ulp_of(4.0F));
+  EXPECT_NE(to_text(found).find("0.5 max in the model's units"), std::string::npos);
+}
+
+// A picture without alpha does not say where a surface is.
+TEST(FrameComparison, TellsOfHitsOnlyWhereImagesDo) {
+  Frame a = grey(4, 3);
+  EXPECT_EQ(to_text(compare(a, a)).find("hit"), std::string::npos);
+  a.colors[3].w = 0.0F;
+  EXPECT_NE(to_text(compare(a, a)).find("11 hit, 0 hit mismatches"), std::string::npos);
+}
+
+// Letters are drawn, and what does not fit into a frame is left out.
+TEST(ComparisonPicture, HasAKey) {
+  for (const uint32_t side : {1U, 7U, 300U}) {
+    const Frame a = grey(side, side);
+    Frame b = a;
+    b.colors[0].x = 0.75F;
+    const Frame picture = comparison_picture(a, b);
+    ASSERT_EQ(picture.width, 2 * side);
+    ASSERT_EQ(picture.height, 2 * side + kComparisonKeyHeight);
+    std::size_t white = 0;
+    std::size_t yellow = 0;
+    for (std::size_t i = std::size_t{2} * side * picture.width; i < picture.colors.size(); ++i) {
+      white += picture.colors[i] == vec4(1.0F) ? 1 : 0;
+      yellow += picture.colors[i] == vec4(1.0F, 1.0F, 0.0F, 1.0F) ? 1 : 0;
+    }
+    if (side < 300) continue;
+    EXPECT_GT(white, 200U);  // the letters
+    EXPECT_EQ(yellow, 64U);
+  }
 }
 
 TEST(FrameComparison, RefusesFramesOfOtherSizes) {

@@ -1,0 +1,45 @@
+#include "app/crosscheck/pixel_comparison.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "app/base/error.h"
+#include "app/base/max_propagating_nan.h"
+
+namespace trisect {
+
+bool is_hit(const Frame& frame, std::size_t pixel) {
+  return frame.aovs.empty() ? frame.colors[pixel].w > 0.0F
+                            : frame.aovs[pixel].triangle != NO_TRIANGLE;
+}
+
+bool same_bits(float a, float b) {
+  return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b);
+}
+
+void expect_same_size(const Frame& a, const Frame& b) {
+  if (a.width == b.width && a.height == b.height) return;
+  throw InputError(fmt::format("images of {}x{} and {}x{} pixels cannot be compared.", a.width,
+                               a.height, b.width, b.height));
+}
+
+ColorDifference color_difference(const Frame& a, const Frame& b) {
+  ColorDifference difference;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < a.colors.size(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const double steps =
+          255.0 * (static_cast<double>(a.colors[i][k]) - static_cast<double>(b.colors[i][k]));
+      squares += steps * steps;
+      max_propagating_nan(difference.largest, std::abs(steps));
+      if (std::abs(steps) > difference.largest_number) difference.largest_number = std::abs(steps);
+    }
+  }
+  difference.rmse = std::sqrt(squares / (3.0 * static_cast<double>(a.colors.size())));
+  return difference;
+}
+
+}  // namespace trisect

@@ -1,0 +1,28 @@
+// What the comparison of two frames and its picture share.
+#pragma once
+
+#include <cstddef>
+
+#include "app/frame/frame.h"
+
+namespace trisect {
+
+// Whether a pixel hit something: by its triangle, or, in a frame without AOVs, by its alpha.
+bool is_hit(const Frame& frame, std::size_t pixel);
+
+bool same_bits(float a, float b);
+
+// Throws InputError if the frames are not of the same size.
+void expect_same_size(const Frame& a, const Frame& b);
+
+// As FrameComparison has it, of colours.
+struct ColorDifference {
+  double rmse = 0.0;
+  double largest = 0.0;         // NaN if any is
+  double largest_number = 0.0;  // of those that are not NaN
+};
+
+// Of frames of the same size.
+ColorDifference color_difference(const Frame& a, const Frame& b);
+
+}  // namespace trisect
