@@ -19,6 +19,7 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "app/base/error.h"
@@ -168,7 +169,7 @@ void read_texts(png_structp png, png_infop info, std::FILE* file, png_textp* tex
   png_get_text(png, info, texts, count);
 }
 
-// Those before the pixels.
+// Those before the pixels that are of this program.
 ImageTexts png_texts(const fs::path& path) {
   std::string complaint;
   const auto note_error = [](png_structp png, png_const_charp message) {
@@ -186,7 +187,11 @@ ImageTexts png_texts(const fs::path& path) {
   int count = 0;
   if (complaint.empty()) read_texts(png, info, stream, &texts, &count);
   ImageTexts found;
-  for (int i = 0; i < count; ++i) found.emplace_back(texts[i].key, texts[i].text);
+  const std::string_view keyword(kPngKeyword);
+  for (int i = 0; i < count; ++i) {
+    const std::string_view key(texts[i].key);
+    if (key.starts_with(keyword)) found.emplace_back(key.substr(keyword.size()), texts[i].text);
+  }
   png_destroy_read_struct(&png, &info, nullptr);
   if (stream != nullptr) std::fclose(stream);
   if (!complaint.empty()) throw unreadable(path, complaint);

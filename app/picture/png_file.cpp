@@ -91,7 +91,12 @@ void write_png_pixels(PngPixels& pixels, const ImageTexts& texts,
   for (uint32_t row = 0; row < pixels.height; ++row) {
     content.rows.push_back(pixels.bytes.data() + row * row_bytes);
   }
-  for (const auto& [name, value] : texts) content.texts.push_back(text_of(name, value));
+  std::vector<std::string> keywords;
+  keywords.reserve(texts.size());
+  for (const auto& [name, value] : texts) {
+    keywords.push_back(kPngKeyword + name);
+    content.texts.push_back(text_of(keywords.back(), value));
+  }
 
   std::string complaint;
   std::FILE* stream = std::fopen(file.temporary().c_str(), "wb");

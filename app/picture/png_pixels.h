@@ -12,6 +12,10 @@
 
 namespace trisect {
 
+// What the keywords of texts begin with: programs take "background" alone, and others, for names of
+// their own.
+inline constexpr const char* kPngKeyword = "trisect:";
+
 // Eight bits a component, sRGB, in rows from top to bottom.
 struct PngPixels {
   uint32_t width = 0;
@@ -20,7 +24,8 @@ struct PngPixels {
   std::vector<uint8_t> bytes;
 };
 
-// texts: names and values. place: of a part of an image. Throws InputError, naming the file.
+// texts: names and values; the names get kPngKeyword before them. place: of a part of an image.
+// Throws InputError, naming the file.
 void write_png_pixels(PngPixels& pixels, const ImageTexts& texts,
                       const std::optional<FramePlace>& place, const AtomicFile& file);
 

@@ -124,11 +124,11 @@ TEST(WritePfm, WritesColoursOrOneOutput) {
   const std::string three = "PF\n5 3\n-1.0\n";
   const std::size_t lowest = 10;
   EXPECT_EQ(written(Aov::color, three, 3)[1], linear_from_srgb(frame.colors[lowest].y));
-  EXPECT_EQ(written(Aov::color, three, 3)[3 * 14 + 2], linear_from_srgb(frame.colors[4].z));
+  EXPECT_EQ(written(Aov::color, three, 3)[44], linear_from_srgb(frame.colors[4].z));
   EXPECT_EQ(written(Aov::depth, "Pf\n5 3\n-1.0\n", 1)[2], frame.aovs[lowest + 2].normal_z.w);
   EXPECT_EQ(written(Aov::normal, three, 3)[2], frame.aovs[lowest].normal_z.z);
   EXPECT_EQ(written(Aov::geometric, three, 3)[0], frame.aovs[lowest].geometric_u.x);
-  EXPECT_EQ(written(Aov::position, three, 3)[3 * 5], frame.colors[5].x);
+  EXPECT_EQ(written(Aov::position, three, 3)[15], frame.colors[5].x);
 }
 
 // Every kind of attribute comes back as its text, whatever the letters.
@@ -153,6 +153,16 @@ TEST(ReadAttributes, FindsWhatWasWritten) {
     EXPECT_EQ(std::strtod(said["alpha"].c_str(), nullptr), unusual);
     EXPECT_EQ(said["eye"], "0.1,-2,1e+300");
   }
+}
+
+// Other programs have meanings of their own for "background", "model" or "date".
+TEST(WritePng, NamesItsTextsApart) {
+  const test::TemporaryFolder folder;
+  ImageContents contents;
+  contents.attributes = {{"background", std::string("sky")}};
+  save_image(sample(false), folder / "a.png", contents);
+  const std::string bytes = test::content_of(folder / "a.png");
+  EXPECT_NE(bytes.find(std::string("tEXttrisect:background\0sky", 26)), std::string::npos);
 }
 
 TEST(WriteExr, NamesThePrimariesOfSrgb) {
