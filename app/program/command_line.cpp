@@ -11,8 +11,11 @@
 #include "app/bench/command_line.h"
 #include "app/cli/command_options.h"
 #include "app/cli/commands.h"
+#include "app/cli/option_groups.h"
 #include "app/cli/output.h"
 #include "app/cli/scene_options.h"
+#include "app/cli/suggestions.h"
+#include "app/program/help_format.h"
 #include "app/view/command_line.h"
 
 namespace trisect {
@@ -35,21 +38,37 @@ Added<Values> add_command(CLI::App& app, const std::string& name, const std::str
   return {*command, std::make_shared<Values>()};
 }
 
-// Adds --quiet to a command and its own.
+// Adds --quiet to a command or, if it has some, to its own. (A group of options is one without a
+// name.)
 void add_quiet(CLI::App& command) {
-  const std::vector<CLI::App*> own = command.get_subcommands({});
+  const std::vector<CLI::App*> own =
+      command.get_subcommands([](const CLI::App* sub) { return !sub->get_name().empty(); });
   for (CLI::App* sub : own) add_quiet(*sub);
   if (own.empty()) {
-    command.add_flag_callback("-q,--quiet", be_quiet, "Say nothing but what is wrong");
+    command.add_flag_callback("-q,--quiet", be_quiet, "Say nothing but what is wrong")
+        ->group(option_group::kOutput);
   }
 }
 
+// CLI11 gives every command a --help of its own, in a group of its own.
+void group_help(CLI::App& command) {
+  command.get_help_ptr()->group(option_group::kHelp);
+  for (CLI::App* sub : command.get_subcommands({})) group_help(*sub);
+}
+
 void add_model(CLI::App& command, std::string& model) {
-  command.add_option("MODEL", model, "OBJ, glTF, PLY, STL or FBX file")->required();
+  command.add_option("MODEL", model, "OBJ, glTF, PLY, STL or FBX file")
+      ->group(option_group::kModel)
+      ->required()
+      ->check(suggest_models());
 }
 
 void add_json(CLI::App& command, std::string& json, const std::string& what) {
-  command.add_option("--json", json, what)->check(not_empty())->type_name("FILE");
+  command.add_option("--json", json, what)
+      ->group(option_group::kOutput)
+      ->check(not_empty())
+      ->check(suggest_files({".json"}))
+      ->type_name("FILE");
 }
 
 Command add_render(CLI::App& app) {
@@ -68,27 +87,36 @@ Command add_render(CLI::App& app) {
           "-o,--output", options.output,
           "Image to write: .png (8-bit sRGB) or .exr (linear float, with AOVs); - writes PNG to "
           "standard output")
+      ->group(option_group::kOutput)
       ->required()
+      ->check(suggest_images())
       ->type_name("FILE");
   command
       .add_option("--backend", values->backend,
                   "Who traces: vulkan, opengl, cpu (the same kernel as C++) or oracle (double "
                   "precision, slow), default vulkan")
+      ->group(option_group::kTracing)
       ->check(one_of({"vulkan", "opengl", "cpu", "oracle"}))
       ->type_name("NAME");
-  command.add_flag("--validation", options.validation,
-                   "Run under the Vulkan validation layer, fail on any message");
+  command
+      .add_flag("--validation", options.validation,
+                "Run under the Vulkan validation layer, fail on any message")
+      ->group(option_group::kTracing);
   add_spp(command, options.spp);
   command
       .add_option("--runs", options.runs,
                   "Frames to time after a warm-up; without it one, which is not preceded by any")
+      ->group(option_group::kMeasuring)
       ->check(number_from_to(1, 1000000))
       ->type_name("N");
-  command.add_flag(
-      "--evals", options.evals,
-      "Count evaluations of the surface: EXR channel evals, evals_total in the figures");
+  command
+      .add_flag("--evals", options.evals,
+                "Count evaluations of the surface: EXR channel evals, evals_total in the figures")
+      ->group(option_group::kMeasuring);
   command.add_option("--stats", options.stats, "Write the figures as JSON")
+      ->group(option_group::kOutput)
       ->check(not_empty())
+      ->check(suggest_files({".json"}))
       ->type_name("FILE.json");
   return {&command, [values = values] {
             parse_scene(values->scene, values->options);
@@ -111,7 +139,10 @@ Command add_accuracy(CLI::App& app) {
   add_models(command, values->options.models);
   add_size(command, values->size, "800x600");
   add_surfaces(command, values->surface);
-  command.add_option("--shell", values->shell, "normal or height, default both")
+  command
+      .add_option("--shell", values->shell,
+                  "Along what triangles are displaced: normal or height, default both")
+      ->group(option_group::kSurface)
       ->check(one_of({"normal", "height"}))
       ->type_name("NAME");
   add_device(command, values->options.device);
@@ -134,6 +165,7 @@ Command add_hardcases(CLI::App& app) {
       add_command<Values>(app, "hardcases", "Measure the solvers on a catalogue of hard cases");
   add_table_json(command, values->options.json);
   command.add_option("--backend", values->backend, "Who traces: vulkan or cpu, default vulkan")
+      ->group(option_group::kTracing)
       ->check(one_of({"vulkan", "cpu"}))
       ->type_name("NAME");
   add_device(command, values->options.device);
@@ -150,7 +182,9 @@ void add_comparison_files(CLI::App& command, std::string& json, std::string& dif
       .add_option("--diff", diff,
                   "Write a picture (.png or .exr): both images, their difference amplified, and "
                   "where hits, triangles or Z differ")
+      ->group(option_group::kOutput)
       ->check(not_empty())
+      ->check(suggest_images())
       ->type_name("FILE");
 }
 
@@ -166,6 +200,7 @@ Command add_crosscheck(CLI::App& app) {
   command
       .add_option("--backends", values->backends,
                   "Two or more of vulkan, opengl, cpu, oracle, default vulkan,opengl")
+      ->group(option_group::kTracing)
       ->type_name("A,B,...");
   add_comparison_files(command, values->options.json, values->options.diff);
   return {&command, [values = values] {
@@ -185,13 +220,20 @@ Command add_compare(CLI::App& app) {
   };
   const auto [command, values] =
       add_command<Values>(app, "compare", "Compare two images, PNG or EXR, of the same size");
-  command.add_option("A", values->options.a, "Image")->required();
-  command.add_option("B", values->options.b, "Image")->required();
+  command.add_option("A", values->options.a, "An image")
+      ->group(option_group::kInput)
+      ->required()
+      ->check(suggest_images());
+  command.add_option("B", values->options.b, "Another, of the same size")
+      ->group(option_group::kInput)
+      ->required()
+      ->check(suggest_images());
   command
       .add_option("--threshold", values->thresholds,
                   "The most of it that is well: hit_mismatches and patch_mismatches (parts of the "
                   "pixels, default 0), color_max (8-bit steps, default 1), color_rmse, z_differs "
                   "(part of the hits, both default anything)")
+      ->group(option_group::kMeasuring)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("NAME=X");
   add_comparison_files(command, values->options.json, values->options.diff);
@@ -213,7 +255,10 @@ Command add_info(CLI::App& app) {
       "Say what a model is like, what its curved surfaces will be like, and what to look at");
   add_model(command, values->options.model);
   add_mesh_options(command, values->options.mesh);
-  command.add_option("--surface", values->surface, "Of which: phong or sphere, default phong")
+  command
+      .add_option("--surface", values->surface,
+                  "How triangles are curved: phong or sphere, default phong")
+      ->group(option_group::kSurface)
       ->check(one_of({"phong", "sphere"}))
       ->type_name("NAME");
   add_json(command, values->options.json, "Write it as JSON");
@@ -233,21 +278,27 @@ Command add_export(CLI::App& app) {
   ExportOptions& options = values->options;
   add_model(command, options.model);
   command.add_option("-o,--output", options.output, "File to write: .obj, .ply, .stl or .glb")
+      ->group(option_group::kOutput)
+      ->check(suggest_files({".obj", ".ply", ".stl", ".glb"}))
       ->required()
       ->type_name("FILE");
   add_mesh_options(command, options.mesh);
   command
-      .add_option("--surface", values->surface, "Of which: flat, phong or sphere, default phong")
+      .add_option("--surface", values->surface,
+                  "How triangles are curved: flat, phong or sphere, default phong")
+      ->group(option_group::kSurface)
       ->check(one_of({"flat", "phong", "sphere"}))
       ->type_name("NAME");
   add_alpha(command, options.alpha);
   CLI::Option_group* how = command.add_option_group("how fine");
   how->add_option("--subdivide", options.subdivide, "N x N flat triangles for each of the model's")
+      ->group(option_group::kSurface)
       ->check(number_from_to(1, 4000))
       ->type_name("N");
   how->add_option("--error", options.error,
                   "As many as it takes to be off the surface by no more than this, in the model's "
                   "units")
+      ->group(option_group::kSurface)
       ->check(number_from_to(1e-300, 1e9))
       ->type_name("EPS");
   how->require_option(1);
@@ -261,9 +312,11 @@ Command add_export(CLI::App& app) {
 Command add_devices(CLI::App& app) {
   const auto [command, options] = add_command<DevicesOptions>(
       app, "devices", "List the Vulkan devices, and what those that cannot be used lack");
-  command.add_flag("--floats", options->floats,
-                   "Measure what the arithmetic of usable devices does: errors, contraction, "
-                   "denormals, NaN");
+  command
+      .add_flag("--floats", options->floats,
+                "Measure what the arithmetic of usable devices does: errors, contraction, "
+                "denormals, NaN")
+      ->group(option_group::kMeasuring);
   add_device(command, options->device);
   add_table_json(command, options->json);
   return {&command, [options = options] { return list_devices(*options); }};
@@ -279,29 +332,27 @@ Command add_other(CLI::App& app, const std::string& name) {
 }  // namespace
 
 CommandLine::CommandLine()
-    : app_("Ray-traces triangle models as smooth curved surfaces, in a Vulkan compute shader.",
+    : app_("Ray-trace triangle models as smooth curved surfaces, in a Vulkan compute shader",
            "trisect") {
-  app_.set_version_flag("--version", std::string("trisect ") + TRISECT_VERSION);
+  app_.set_version_flag("--version", std::string("trisect ") + TRISECT_VERSION,
+                        "Print the version and exit")
+      ->group(option_group::kHelp);
   app_.require_subcommand(1);
-  commands_ = {add_render(app_),
-               add_accuracy(app_),
-               add_other<bench::CommandLine>(app_, "bench"),
-               add_other<view::CommandLine>(app_, "view"),
-               add_hardcases(app_),
-               add_crosscheck(app_),
-               add_compare(app_),
-               add_info(app_),
-               add_export(app_),
-               add_devices(app_)};
+  // Commands inherit both. They are in the order in which help lists them.
+  app_.formatter(std::make_shared<HelpFormat>());
+  app_.set_help_flag("-h,--help", "Print this help and exit")->group(option_group::kHelp);
+  commands_ = {add_render(app_),     add_other<view::CommandLine>(app_, "view"),
+               add_info(app_),       add_export(app_),
+               add_devices(app_),    add_compare(app_),
+               add_crosscheck(app_), add_accuracy(app_),
+               add_hardcases(app_),  add_other<bench::CommandLine>(app_, "bench")};
   for (CLI::App* command : app_.get_subcommands({})) {
     if (command->get_name() != "view") add_quiet(*command);
   }
-  app_.footer(
-      "Exit codes: 0 done, 1 farther apart than promised, 2 usage, 3 bad input, 4 no usable "
-      "device, 5 device lost, 6 out of memory, 70 internal error, 130 interrupted.");
+  group_help(app_);
 }
 
-int CommandLine::run(int argc, char** argv) {
+bool CommandLine::parse(int argc, const char* const* argv) {
   const auto is_named = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && app_.get_subcommands(is_named).empty()) {
     throw UsageError(fmt::format("'{}' is not a command (see trisect --help)", argv[1]));
@@ -309,9 +360,17 @@ int CommandLine::run(int argc, char** argv) {
   try {
     app_.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app_.exit(error);
+    if (error.get_exit_code() == 0) {
+      app_.exit(error);
+      return false;
+    }
     throw UsageError(std::string(error.what()) + " (see trisect --help)");
   }
+  return true;
+}
+
+int CommandLine::run(int argc, const char* const* argv) {
+  if (!parse(argc, argv)) return exit_done;
   for (const Command& command : commands_) {
     if (command.parsed->parsed()) return command.run();
   }
