@@ -90,6 +90,7 @@ CommandPage command_page(const CLI::App& app) {
 
 std::vector<OptionGroup> option_groups(const CommandPage& page) {
   std::vector<OptionGroup> groups;
+  groups.reserve(option_group::kAll.size());
   for (const char* name : option_group::kAll) groups.push_back({name, {}});
   for (const OptionPage& option : page.options) {
     auto group = std::find_if(groups.begin(), groups.end(),

@@ -45,6 +45,7 @@ std::string function_name(const CommandPage& page) {
 // The names of the files without the first full stop, which the patterns of the shells have.
 std::vector<std::string> without_stop(const std::vector<std::string>& endings) {
   std::vector<std::string> words;
+  words.reserve(endings.size());
   for (const std::string& ending : endings) words.push_back(ending.substr(1));
   return words;
 }
@@ -139,8 +140,9 @@ std::string zsh_command(const CommandPage& page) {
     const std::string others = option.may_repeat ? "*" : "(" + joined(option.names, " ") + ")";
     for (const std::string& name : option.names) {
       const std::string joint = option.value.empty() ? "" : name.starts_with("--") ? "=" : "+";
-      specifications.push_back(quoted(others + name + joint + "[" + zsh_text(option.text) + "]" +
-                                      (option.value.empty() ? "" : zsh_value(option))));
+      const std::string value = option.value.empty() ? "" : zsh_value(option);
+      specifications.push_back(
+          quoted(fmt::format("{}{}{}[{}]{}", others, name, joint, zsh_text(option.text), value)));
     }
   }
   if (page.commands.empty()) {

@@ -134,6 +134,7 @@ TEST(Help, HasExamplesThatAreRight) {
       std::vector<std::string> words;
       for (std::string word; text >> word;) words.push_back(word);
       std::vector<const char*> arguments;
+      arguments.reserve(words.size());
       for (const std::string& word : words) arguments.push_back(word.c_str());
       try {
         EXPECT_TRUE(CommandLine().parse(static_cast<int>(arguments.size()), arguments.data()));
