@@ -7,7 +7,7 @@
 namespace trisect {
 
 // Renders the model to the output file and prints the figures; returns an exit code.
-int render(const RenderOptions& options);
+int render(RenderOptions options);
 
 // Compares the solvers with the oracle and prints a table. Returns exit_different if the robust
 // solver does not keep its promises.

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "app/bake/bvh.h"
 #include "app/bake/subpatch_bounds.h"
 #include "app/base/error.h"
 #include "app/base/stopwatch.h"
 #include "app/cli/interrupt.h"
+#include "app/cli/model_sha256.h"
 #include "app/cli/output.h"
 #include "app/cli/progress_line.h"
 #include "app/frame/supersampling.h"
@@ -76,7 +78,9 @@ TraceSettings settings_of(const RenderOptions& options, const Mesh& mesh, const 
 LoadedScene load_scene(const RenderOptions& options) {
   LoadedScene loaded{};
   const BuiltMesh built = timed("reading " + options.model, loaded.load_ms, [&] {
-    return build_mesh(read_model(options.model), options.model, options.mesh);
+    PolygonModel model = read_model(options.model);
+    loaded.model_sha256 = model_sha256(options.model, model.files);
+    return build_mesh(std::move(model), options.model, options.mesh);
   });
   say("{}: {}\n", options.model, describe(built.report));
   loaded.scene = timed("baking", loaded.bake_ms, [&] {

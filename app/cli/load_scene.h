@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "app/bake/bake.h"
 #include "app/cli/options.h"
@@ -24,6 +25,7 @@ TraceSettings settings_of(const RenderOptions& options, const Mesh& mesh, const 
 
 struct LoadedScene {
   BakedScene scene;
+  std::string model_sha256;
   TraceSettings settings;
   TraceParams params;
   double load_ms;

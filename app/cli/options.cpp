@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -26,6 +27,35 @@ bool take_character(std::string_view& text, char c) {
   if (!text.starts_with(c)) return false;
   text.remove_prefix(1);
   return true;
+}
+
+struct NamedAov {
+  const char* name;
+  Aov aov;
+};
+
+constexpr NamedAov kAovs[] = {{"color", Aov::color}, {"Z", Aov::depth},     {"N", Aov::normal},
+                              {"G", Aov::geometric}, {"patch", Aov::patch}, {"uv", Aov::uv},
+                              {"P", Aov::position},  {"evals", Aov::evals}};
+
+// Calls take(word) for each of the words that commas separate; empty ones too.
+template <typename Take>
+void for_each_word(std::string_view text, Take&& take) {
+  while (true) {
+    const std::string_view word = text.substr(0, text.find(','));
+    take(word);
+    if (word.size() == text.size()) return;
+    text.remove_prefix(word.size() + 1);
+  }
+}
+
+// Adds an item to a list, in which it must not be yet.
+template <typename Item>
+void add_new(const std::string& option, std::string_view name, Item item, std::vector<Item>& list) {
+  if (std::find(list.begin(), list.end(), item) != list.end()) {
+    throw UsageError(fmt::format("{}: '{}' is there twice.", option, name));
+  }
+  list.push_back(item);
 }
 
 constexpr Backend kBackends[] = {Backend::vulkan, Backend::opengl, Backend::cpu, Backend::oracle};
@@ -88,6 +118,30 @@ std::string background_text(Background background, const glm::dvec3& color) {
                                          : background_name(background);
 }
 
+std::vector<Aov> parse_aovs(const std::string& option, const std::string& text) {
+  std::vector<Aov> aovs;
+  for_each_word(text, [&](std::string_view word) {
+    const auto* named = std::find_if(std::begin(kAovs), std::end(kAovs),
+                                     [&](const NamedAov& known) { return word == known.name; });
+    if (named == std::end(kAovs)) {
+      throw UsageError(fmt::format("{}: '{}' is not one of: color, Z, N, G, patch, uv, P, evals.",
+                                   option, word));
+    }
+    add_new(option, word, named->aov, aovs);
+  });
+  return aovs;
+}
+
+std::string aovs_text(const std::vector<Aov>& aovs) {
+  std::string text;
+  for (const NamedAov& known : kAovs) {
+    if (std::find(aovs.begin(), aovs.end(), known.aov) == aovs.end()) continue;
+    if (!text.empty()) text += ",";
+    text += known.name;
+  }
+  return text;
+}
+
 Backend backend_named(const std::string& option, std::string_view name) {
   for (const Backend backend : kBackends) {
     if (name == backend_name(backend)) return backend;
@@ -98,17 +152,9 @@ Backend backend_named(const std::string& option, std::string_view name) {
 
 std::vector<Backend> parse_backends(const std::string& option, const std::string& text) {
   std::vector<Backend> backends;
-  std::string_view rest = text;
-  while (true) {
-    const std::string_view name = rest.substr(0, rest.find(','));
-    const Backend backend = backend_named(option, name);
-    if (std::find(backends.begin(), backends.end(), backend) != backends.end()) {
-      throw UsageError(fmt::format("{}: '{}' is there twice.", option, name));
-    }
-    backends.push_back(backend);
-    if (name.size() == rest.size()) break;
-    rest.remove_prefix(name.size() + 1);
-  }
+  for_each_word(text, [&](std::string_view name) {
+    add_new(option, name, backend_named(option, name), backends);
+  });
   if (backends.size() < 2) throw UsageError(option + ": two or more are needed.");
   return backends;
 }

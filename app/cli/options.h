@@ -12,6 +12,7 @@
 #include "app/dispatch/backend.h"
 #include "app/dispatch/trace_settings.h"
 #include "app/mesh/mesh_builder.h"
+#include "app/picture/image_file.h"
 #include "app/surface/shared.h"
 
 namespace trisect {
@@ -46,6 +47,8 @@ struct RenderOptions {
   GlPath gl_path = GlPath::compute;
   std::string device;
   bool validation = false;
+  std::vector<Aov> aovs;         // of an EXR or PFM; empty: those that each has
+  std::string from;              // a picture whose options come before these; empty: none
   std::optional<uint32_t> runs;  // frames to time, after a warm-up; if not given one without it
   uint32_t spp = 1;              // rays per pixel, a square number
   std::string stats;
@@ -128,6 +131,13 @@ glm::dvec3 parse_color(const std::string& option, const std::string& text,
 
 // A background as --background has it.
 std::string background_text(Background background, const glm::dvec3& color);
+
+// "color,Z": what an image file has of each pixel. Throws UsageError, naming the option, for
+// anything but names of color, Z, N, G, patch, uv, P, evals, none of them twice.
+std::vector<Aov> parse_aovs(const std::string& option, const std::string& text);
+
+// The names as --aov has them.
+std::string aovs_text(const std::vector<Aov>& aovs);
 
 // The back end of that name. Throws UsageError, naming the option, if there is none.
 Backend backend_named(const std::string& option, std::string_view name);

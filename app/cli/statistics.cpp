@@ -47,18 +47,19 @@ std::string to_json(const RenderOptions& options, const RenderStatistics& statis
   json["program"] = "trisect";
   json["version"] = TRISECT_VERSION;
   json["commit"] = commit();
-  json["device"] = statistics.device;
-  json["driver"] = statistics.driver;
+  json["device"] = statistics.source.device;
+  json["driver"] = statistics.source.driver;
   json["backend"] = backend_name(options.backend);
   if (options.backend == Backend::opengl) json["gl_path"] = gl_path_name(options.gl_path);
   json["model"] = options.model;
+  json["model_sha256"] = statistics.source.model_sha256;
   json["patches"] = statistics.patches;
   json["width"] = options.width;
   json["height"] = options.height;
   json["surface"] = surface_name(options.surface);
   json["shell"] = shell_name(options.shell);
   json["solver"] = solver_name(options.solver);
-  json["accel"] = accel_name(statistics.accel);
+  json["accel"] = accel_name(statistics.source.accel);
   json["rank"] = options.rank;
   json["alpha"] = options.alpha;
   json["hits"] = statistics.hits;
@@ -69,15 +70,16 @@ std::string to_json(const RenderOptions& options, const RenderStatistics& statis
     if (statistics.counts->bytes_read > 0) json["bytes_read"] = statistics.counts->bytes_read;
     if (options.backend == Backend::vulkan) json["queued_rays"] = statistics.counts->queued_rays;
   }
+  const TraceSettings& settings = statistics.source.settings;
   const auto triple = [](const glm::dvec3& v) { return nlohmann::ordered_json{v.x, v.y, v.z}; };
-  json["camera"] = {{"eye", triple(statistics.camera.eye)},
-                    {"target", triple(statistics.camera.target)},
-                    {"up", triple(statistics.camera.up)},
-                    {"fov", statistics.camera.fov}};
-  json["light"] = triple(statistics.light);
-  json["shading"] = shading_name(statistics.shading);
+  json["camera"] = {{"eye", triple(settings.camera.eye)},
+                    {"target", triple(settings.camera.target)},
+                    {"up", triple(settings.camera.up)},
+                    {"fov", settings.camera.fov}};
+  json["light"] = triple(settings.light);
+  json["shading"] = shading_name(settings.shading);
   json["color"] = options.color ? triple(*options.color) : nlohmann::ordered_json();
-  json["background"] = background_text(statistics.background, statistics.background_color);
+  json["background"] = background_text(settings.background, settings.background_color);
   json["crease"] = options.mesh.crease_degrees
                        ? nlohmann::ordered_json(*options.mesh.crease_degrees)
                        : nlohmann::ordered_json();
@@ -93,40 +95,6 @@ std::string to_json(const RenderOptions& options, const RenderStatistics& statis
   if (statistics.bvh_ms) json["bvh_ms"] = *statistics.bvh_ms;
   json["upload_ms"] = statistics.upload_ms;
   return json_text(json);
-}
-
-std::vector<ImageAttribute> attributes_of(const RenderOptions& options,
-                                          const RenderStatistics& statistics) {
-  std::vector<ImageAttribute> attributes{
-      {"program", std::string("trisect ") + TRISECT_VERSION},
-      {"commit", commit()},
-      {"device", statistics.device},
-      {"driver", statistics.driver},
-      {"backend", std::string(backend_name(options.backend))},
-      {"model", options.model},
-      {"surface", std::string(surface_name(options.surface))},
-      {"alpha", options.alpha},
-      {"shell", std::string(shell_name(options.shell))},
-      {"solver", std::string(solver_name(options.solver))},
-      {"rank", static_cast<int>(options.rank)},
-      {"accel", std::string(accel_name(statistics.accel))},
-      {"eye", statistics.camera.eye},
-      {"target", statistics.camera.target},
-      {"up", statistics.camera.up},
-      {"fov", statistics.camera.fov},
-      {"light", statistics.light},
-      {"shading", std::string(shading_name(statistics.shading))},
-      {"background", background_text(statistics.background, statistics.background_color)},
-      {"shadows", static_cast<int>(options.shadows)},
-      {"spp", static_cast<int>(options.spp)},
-      {"weld", options.mesh.weld},
-      {"repair", static_cast<int>(options.mesh.repair)}};
-  if (options.backend == Backend::opengl) {
-    attributes.push_back({"gl_path", std::string(gl_path_name(options.gl_path))});
-  }
-  if (options.color) attributes.push_back({"color", *options.color});
-  if (options.mesh.crease_degrees) attributes.push_back({"crease", *options.mesh.crease_degrees});
-  return attributes;
 }
 
 std::string to_text(const RenderOptions& options, const RenderStatistics& statistics) {
@@ -146,10 +114,10 @@ std::string to_text(const RenderOptions& options, const RenderStatistics& statis
       "device {}, driver {}\n"
       "{} patches, surface {}{}, shell {}, solver {}, accel {}, {}x{}: {} pixels hit\n{}"
       "load {:.1f} ms, bake {:.1f} ms, upload {:.1f} ms, gpu {:.1f} ms, wall {:.1f} ms{}\n",
-      statistics.device, statistics.driver, statistics.patches, surface_name(options.surface),
-      alpha, shell_name(options.shell), solver, accel_name(statistics.accel), options.width,
-      options.height, statistics.hits, counts, statistics.load_ms, statistics.bake_ms,
-      statistics.upload_ms, gpu.median, wall.median,
+      statistics.source.device, statistics.source.driver, statistics.patches,
+      surface_name(options.surface), alpha, shell_name(options.shell), solver,
+      accel_name(statistics.source.accel), options.width, options.height, statistics.hits, counts,
+      statistics.load_ms, statistics.bake_ms, statistics.upload_ms, gpu.median, wall.median,
       statistics.frames.size() > 1 ? fmt::format(" (medians of {} runs, gpu {:.1f} to {:.1f} ms)",
                                                  statistics.frames.size(), gpu.min, gpu.max)
       : options.runs               ? ""

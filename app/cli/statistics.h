@@ -9,11 +9,9 @@
 
 #include "app/bake/bake.h"
 #include "app/cli/options.h"
-#include "app/dispatch/camera.h"
-#include "app/dispatch/trace_settings.h"
+#include "app/cli/picture_source.h"
 #include "app/frame/frame.h"
 #include "app/frame/frame_time.h"
-#include "app/picture/image_file.h"
 
 namespace trisect {
 
@@ -45,14 +43,7 @@ struct WorkCounts {
 WorkCounts work_of(const Frame& frame);
 
 struct RenderStatistics {
-  std::string device;
-  std::string driver;
-  Accel accel = Accel::list;
-  Camera camera;
-  glm::dvec3 light{0.0};  // toward it
-  uint shading = SHADING_PLAIN;
-  Background background = Background::sky;
-  glm::dvec3 background_color{0.0};
+  PictureSource source;
   std::size_t patches = 0;
   std::size_t hits = 0;
   std::size_t scene_bytes = 0;       // on the device: triangles, subpatch bounds, tree
@@ -66,10 +57,6 @@ struct RenderStatistics {
 
 // The statistics as JSON, with the keys that README lists.
 std::string to_json(const RenderOptions& options, const RenderStatistics& statistics);
-
-// What an EXR file says of its picture: what makes it again, and who made it.
-std::vector<ImageAttribute> attributes_of(const RenderOptions& options,
-                                          const RenderStatistics& statistics);
 
 // A few lines for a person.
 std::string to_text(const RenderOptions& options, const RenderStatistics& statistics);

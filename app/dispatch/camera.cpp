@@ -35,6 +35,16 @@ Camera framing_camera(std::span<const dvec3> vertices, const dvec3& center, doub
   return {center + backward * distance, center, up, fov};
 }
 
+dvec3 view_direction(const Camera& camera, uint32_t width, uint32_t height, double x, double y) {
+  const dvec3 forward = glm::normalize(camera.target - camera.eye);
+  const dvec3 right = glm::normalize(glm::cross(forward, camera.up));
+  const dvec3 upward = glm::cross(right, forward);
+  // At distance 1 ahead of the eye the image is 2 tan(fov / 2) high.
+  const double pixel = 2.0 * std::tan(glm::radians(camera.fov) * 0.5) / height;
+  return glm::normalize(forward + right * (pixel * (x - 0.5 * width)) +
+                        upward * (pixel * (0.5 * height - y)));
+}
+
 void set_rays(const Camera& camera, const dvec3& origin, double radius, double near, double far,
               TraceParams& params) {
   const dvec3 forward = camera.target - camera.eye;

@@ -1,6 +1,7 @@
 // A pinhole camera and the rays it gives the kernels.
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
 
@@ -20,6 +21,11 @@ struct Camera {
 // height). fov in degrees.
 Camera framing_camera(std::span<const glm::dvec3> vertices, const glm::dvec3& center, double fov,
                       const glm::dvec3& up, double aspect);
+
+// The unit direction in which the camera sees a position in an image of that size, in pixels, y
+// down, (0, 0) the top left corner.
+glm::dvec3 view_direction(const Camera& camera, uint32_t width, uint32_t height, double x,
+                          double y);
 
 // Fills in the members of `params` that describe a camera's rays, for an image of params.width x
 // params.height pixels. origin, radius: of the scene, in world units; the rays are relative to the

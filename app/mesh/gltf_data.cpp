@@ -246,7 +246,7 @@ std::string_view Data::buffer(std::size_t index) {
   return binary_;
 }
 
-std::string Data::read_uri(const std::string& uri, std::size_t index) const {
+std::string Data::read_uri(const std::string& uri, std::size_t index) {
   if (uri.starts_with("data:")) {
     constexpr std::string_view mark = ";base64,";
     const std::size_t begin = uri.find(mark);
@@ -255,7 +255,9 @@ std::string Data::read_uri(const std::string& uri, std::size_t index) const {
   }
   const auto file = file_below(folder_of(path_), decoded_percent(uri));
   if (!file) fail("names a buffer outside its folder");
-  return read_bytes(*file);
+  std::string bytes = read_bytes(*file);
+  files_.push_back(*file);
+  return bytes;
 }
 
 std::string_view Data::part(std::size_t index, std::size_t offset, std::size_t size) {

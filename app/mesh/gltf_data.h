@@ -53,12 +53,15 @@ class Data {
   // The bytes of a buffer view, unpacked if EXT_meshopt_compression has packed them.
   std::string_view view(std::size_t index);
 
+  // The files of the buffers that have been read.
+  [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
+
   // An accessor. Normalised components are from -1 or 0 to 1.
   Table table(std::size_t index);
 
  private:
   std::string_view buffer(std::size_t index);
-  std::string read_uri(const std::string& uri, std::size_t index) const;
+  std::string read_uri(const std::string& uri, std::size_t index);
   std::string_view part(std::size_t index, std::size_t offset, std::size_t size);
   std::string_view unpacked(std::size_t index, const nlohmann::json& packed);
   // Where numbers lie: in a view, `stride` apart or, if that is 0, side by side.
@@ -78,6 +81,7 @@ class Data {
   nlohmann::json root_;
   std::string_view binary_;                     // the bytes in a binary file
   std::map<std::size_t, std::string> buffers_;  // those with a URI
+  std::vector<std::filesystem::path> files_;    // of buffers
   std::map<std::size_t, std::string> unpacked_;
 };
 

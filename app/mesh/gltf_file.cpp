@@ -195,6 +195,7 @@ class GltfScene {
     note_left_out(lines_, "line primitive", model_);
     note_left_out(without_positions_, "primitive without positions", model_);
     if (model_.sizes.empty()) data_.fail("has no triangles" + notes_after_semicolon(model_));
+    model_.files = data_.files();
     return std::move(model_);
   }
 

@@ -281,8 +281,7 @@ std::vector<std::string> notes_of(const Counts& counts) {
 // Gives polygons the colours of their materials.
 void add_material_colors(const OrderedText& text, const std::filesystem::path& folder,
                          PolygonModel& model) {
-  const std::map<std::string, glm::vec3> colors =
-      material_colors(text.libraries, folder, model.notes);
+  const std::map<std::string, glm::vec3> colors = material_colors(text.libraries, folder, model);
   if (colors.empty()) return;
   model.colors.assign(model.sizes.size(), PolygonModel::no_color);
   for (std::size_t i = 0; i < text.materials.size(); ++i) {

@@ -61,8 +61,7 @@ Found found(const fs::path& folder, const std::string& name) {
 }  // namespace
 
 std::map<std::string, glm::vec3> material_colors(const std::set<std::string>& libraries,
-                                                 const fs::path& folder,
-                                                 std::vector<std::string>& notes) {
+                                                 const fs::path& folder, PolygonModel& model) {
   std::map<std::string, glm::vec3> colors;
   std::size_t outside = 0;
   std::size_t absent = 0;
@@ -73,6 +72,7 @@ std::map<std::string, glm::vec3> material_colors(const std::set<std::string>& li
     }
     try {
       read_materials(read_bytes(*library.file), colors);
+      model.files.push_back(*library.file);
     } catch (const InputError&) {
       ++absent;
     }
@@ -92,7 +92,8 @@ std::map<std::string, glm::vec3> material_colors(const std::set<std::string>& li
   }
   const auto note = [&](std::size_t count, const char* what) {
     if (count == 0) return;
-    notes.push_back(fmt::format("{} material {} {}", count, count == 1 ? "file" : "files", what));
+    model.notes.push_back(
+        fmt::format("{} material {} {}", count, count == 1 ? "file" : "files", what));
   };
   note(outside, "outside the model's folder not read");
   note(absent, "not found, or not readable");

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -41,6 +42,8 @@ struct PolygonModel {
   // has them. 0 if it has floats, infinite if a compression has rounded them: its step is not read.
   double position_rounding = 0.0;
   double normal_rounding = 0.0;
+  // The files that were read beside the model's own, in that order.
+  std::vector<std::filesystem::path> files;
   std::vector<PolygonGroup> groups;  // those that have polygons; none if the file names none
   // What was left out, or is not taken as the file has it: phrases for a person, "3 lines left
   // out".

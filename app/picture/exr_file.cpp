@@ -4,10 +4,12 @@
 #include <ImfHeader.h>
 #include <ImfIntAttribute.h>
 #include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <ImfVecAttribute.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <exception>
 #include <string>
@@ -58,38 +60,57 @@ void insert(const ImageAttribute& attribute, Imf::Header& header) {
 
 }  // namespace
 
-void write_exr(const Frame& frame, bool evals, const AtomicFile& file,
-               const std::vector<ImageAttribute>& attributes) {
+void write_exr(const Frame& frame, const AtomicFile& file, const ImageContents& contents) {
   Imf::Header header(static_cast<int>(frame.width), static_cast<int>(frame.height));
-  for (const ImageAttribute& attribute : attributes) insert(attribute, header);
+  // sRGB's primaries and white, which are Rec. ITU-R BT.709's: the values that this begins with.
+  Imf::addChromaticities(header, Imf::Chromaticities());
+  for (const ImageAttribute& attribute : contents.attributes) insert(attribute, header);
+  const auto has = [&](Aov aov) {
+    return std::find(contents.aovs.begin(), contents.aovs.end(), aov) != contents.aovs.end();
+  };
   Channels channels(header, frame.width);
   constexpr std::size_t component = sizeof(float);
   std::vector<vec4> linear;
-  linear.reserve(frame.colors.size());
-  for (const vec4& color : frame.colors) {
-    linear.emplace_back(linear_from_srgb(color.x), linear_from_srgb(color.y),
-                        linear_from_srgb(color.z), color.w);
+  if (has(Aov::color)) {
+    linear.reserve(frame.colors.size());
+    for (const vec4& color : frame.colors) {
+      linear.emplace_back(linear_from_srgb(color.x), linear_from_srgb(color.y),
+                          linear_from_srgb(color.z), color.w);
+    }
+    channels.add("R", Imf::FLOAT, linear, 0);
+    channels.add("G", Imf::FLOAT, linear, component);
+    channels.add("B", Imf::FLOAT, linear, 2 * component);
+    channels.add("A", Imf::FLOAT, linear, 3 * component);
   }
-  channels.add("R", Imf::FLOAT, linear, 0);
-  channels.add("G", Imf::FLOAT, linear, component);
-  channels.add("B", Imf::FLOAT, linear, 2 * component);
-  channels.add("A", Imf::FLOAT, linear, 3 * component);
   if (!frame.aovs.empty()) {
     constexpr std::size_t normal = offsetof(PixelAovs, normal_z);
     constexpr std::size_t geometric = offsetof(PixelAovs, geometric_u);
-    channels.add("N.X", Imf::FLOAT, frame.aovs, normal);
-    channels.add("N.Y", Imf::FLOAT, frame.aovs, normal + component);
-    channels.add("N.Z", Imf::FLOAT, frame.aovs, normal + 2 * component);
-    channels.add("Z", Imf::FLOAT, frame.aovs, normal + 3 * component);
-    channels.add("G.X", Imf::FLOAT, frame.aovs, geometric);
-    channels.add("G.Y", Imf::FLOAT, frame.aovs, geometric + component);
-    channels.add("G.Z", Imf::FLOAT, frame.aovs, geometric + 2 * component);
-    channels.add("U", Imf::FLOAT, frame.aovs, geometric + 3 * component);
-    channels.add("V", Imf::FLOAT, frame.aovs, offsetof(PixelAovs, v));
-    channels.add("patch", Imf::UINT, frame.aovs, offsetof(PixelAovs, triangle));
-    if (evals) {
+    if (has(Aov::normal)) {
+      channels.add("N.X", Imf::FLOAT, frame.aovs, normal);
+      channels.add("N.Y", Imf::FLOAT, frame.aovs, normal + component);
+      channels.add("N.Z", Imf::FLOAT, frame.aovs, normal + 2 * component);
+    }
+    if (has(Aov::depth)) channels.add("Z", Imf::FLOAT, frame.aovs, normal + 3 * component);
+    if (has(Aov::geometric)) {
+      channels.add("G.X", Imf::FLOAT, frame.aovs, geometric);
+      channels.add("G.Y", Imf::FLOAT, frame.aovs, geometric + component);
+      channels.add("G.Z", Imf::FLOAT, frame.aovs, geometric + 2 * component);
+    }
+    if (has(Aov::uv)) {
+      channels.add("U", Imf::FLOAT, frame.aovs, geometric + 3 * component);
+      channels.add("V", Imf::FLOAT, frame.aovs, offsetof(PixelAovs, v));
+    }
+    if (has(Aov::patch)) {
+      channels.add("patch", Imf::UINT, frame.aovs, offsetof(PixelAovs, triangle));
+    }
+    if (has(Aov::evals)) {
       channels.add("evals", Imf::UINT, frame.aovs, offsetof(PixelAovs, evaluations));
     }
+  }
+  if (has(Aov::position) && !contents.positions.empty()) {
+    channels.add("P.X", Imf::FLOAT, contents.positions, 0);
+    channels.add("P.Y", Imf::FLOAT, contents.positions, component);
+    channels.add("P.Z", Imf::FLOAT, contents.positions, 2 * component);
   }
   try {
     Imf::OutputFile out(file.temporary().c_str(), header);

@@ -1,10 +1,13 @@
 #include "app/picture/image_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <string>
 
 #include "app/base/error.h"
+#include "app/base/number_text.h"
 
 namespace trisect {
 
@@ -14,22 +17,39 @@ ImageFormat image_format(const std::filesystem::path& path) {
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (ending == ".png") return ImageFormat::png;
   if (ending == ".exr") return ImageFormat::exr;
-  throw UsageError(path.string() + ": an image's name must end in .png or .exr.");
+  if (ending == ".pfm") return ImageFormat::pfm;
+  throw UsageError(path.string() + ": an image's name must end in .png, .exr or .pfm.");
+}
+
+std::string value_text(const ImageAttribute& attribute) {
+  const auto& value = attribute.value;
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  if (const auto* whole = std::get_if<int>(&value)) return std::to_string(*whole);
+  if (const auto* number = std::get_if<double>(&value)) return number_text(*number);
+  const auto& vector = std::get<glm::dvec3>(value);
+  return fmt::format("{},{},{}", vector.x, vector.y, vector.z);
 }
 
 void write_image(const Frame& frame, ImageFormat format, const AtomicFile& file,
                  const ImageContents& contents) {
-  if (format == ImageFormat::png) {
-    write_png(frame, file, contents.alpha);
-  } else {
-    write_exr(frame, contents.evals, file, contents.attributes);
+  switch (format) {
+    case ImageFormat::png:
+      write_png(frame, file, contents);
+      break;
+    case ImageFormat::exr:
+      write_exr(frame, file, contents);
+      break;
+    case ImageFormat::pfm:
+      write_pfm(frame, file, contents);
+      break;
   }
 }
 
-void save_image(const Frame& frame, const std::filesystem::path& path, bool evals) {
+void save_image(const Frame& frame, const std::filesystem::path& path,
+                const ImageContents& contents) {
   const ImageFormat format = image_format(path);
   AtomicFile file(path);
-  write_image(frame, format, file, {.evals = evals});
+  write_image(frame, format, file, contents);
   file.commit();
 }
 

@@ -12,33 +12,54 @@
 
 namespace trisect {
 
-enum class ImageFormat { png, exr };
+enum class ImageFormat { png, exr, pfm };
 
-// What a file says of its picture: an attribute of an EXR file's header.
+// What a file says of its picture: an attribute of an EXR file's header, a text of a PNG file.
 struct ImageAttribute {
   std::string name;
   std::variant<std::string, int, double, glm::dvec3> value;
 };
 
-// By the file name's ending, .png or .exr in any letter case. Throws UsageError for any other.
+// The outputs of a pixel, as --aov and the channels of EXR files name them. docs/images.md says
+// what each holds.
+enum class Aov {
+  color,      // R G B A
+  depth,      // Z
+  normal,     // N.X N.Y N.Z
+  geometric,  // G.X G.Y G.Z
+  patch,      // patch
+  uv,         // U V
+  position,   // P.X P.Y P.Z
+  evals       // evals
+};
+
+// What of a frame a file has.
+struct ImageContents {
+  // EXR: which channels. Those that the frame has not are left out. PFM: the first one.
+  std::vector<Aov> aovs{Aov::color, Aov::depth, Aov::normal, Aov::geometric, Aov::patch, Aov::uv};
+  std::vector<glm::vec3> positions;        // of all pixels, for Aov::position
+  bool alpha = false;                      // PNG: A, which EXR has always
+  std::vector<ImageAttribute> attributes;  // EXR and PNG
+};
+
+// By the file name's ending, .png, .exr or .pfm in any letter case. Throws UsageError for any
+// other.
 ImageFormat image_format(const std::filesystem::path& path);
 
-// Writes 8-bit sRGB. alpha: also A, and the colours that its pixels' parts with a hit have, where
+// The attribute's value as text; numbers are as short as they can be to be read back the same.
+std::string value_text(const ImageAttribute& attribute);
+
+// Writes 8-bit sRGB. With alpha the colours are those that its pixels' parts with a hit have, where
 // the others are black (Background::none). Throws InputError, naming the file.
-void write_png(const Frame& frame, const AtomicFile& file, bool alpha = false);
+void write_png(const Frame& frame, const AtomicFile& file, const ImageContents& contents = {});
 
-// Writes R G B A (linear light, A = 1 where hit) and, if the frame has AOVs, Z, N.X N.Y N.Z, G.X
-// G.Y G.Z, patch, U, V, in single precision, patch as unsigned integers; with evals also evals,
-// unsigned. README says what each channel holds. Throws InputError, naming the file.
-void write_exr(const Frame& frame, bool evals, const AtomicFile& file,
-               const std::vector<ImageAttribute>& attributes = {});
+// Writes channels in single precision, patch and evals as unsigned integers, colours in linear
+// light. Throws InputError, naming the file.
+void write_exr(const Frame& frame, const AtomicFile& file, const ImageContents& contents = {});
 
-// What of a frame a file has besides what each has.
-struct ImageContents {
-  bool evals = false;                      // EXR: a channel with the evaluations of each pixel
-  bool alpha = false;                      // PNG: A, which EXR has always
-  std::vector<ImageAttribute> attributes;  // EXR
-};
+// Writes three numbers a pixel, or one for Aov::depth: colours in linear light. Throws InputError,
+// naming the file.
+void write_pfm(const Frame& frame, const AtomicFile& file, const ImageContents& contents = {});
 
 // Writes in that format.
 void write_image(const Frame& frame, ImageFormat format, const AtomicFile& file,
@@ -46,6 +67,7 @@ void write_image(const Frame& frame, ImageFormat format, const AtomicFile& file,
 
 // The same, by the file name's ending: the file appears whole or not at all. Throws UsageError or
 // InputError.
-void save_image(const Frame& frame, const std::filesystem::path& path, bool evals = false);
+void save_image(const Frame& frame, const std::filesystem::path& path,
+                const ImageContents& contents = {});
 
 }  // namespace trisect

@@ -1,20 +1,28 @@
 #include "app/picture/image_reader.h"
-#include "app/base/srgb.h"
 
 #include <ImfChannelList.h>
+#include <ImfDoubleAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
+#include <ImfIntAttribute.h>
+#include <ImfStringAttribute.h>
+#include <ImfVecAttribute.h>
 #include <fmt/format.h>
 #include <png.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
+#include <csetjmp>
 #include <cstddef>
+#include <cstdio>
 #include <exception>
 #include <string>
+#include <system_error>
 
 #include "app/base/error.h"
+#include "app/base/srgb.h"
 #include "app/picture/image_file.h"
 
 namespace trisect {
@@ -131,10 +139,83 @@ Frame read_exr(const fs::path& path) {
   }
 }
 
+using Attributes = std::vector<std::pair<std::string, std::string>>;
+
+Attributes exr_attributes(const fs::path& path) {
+  try {
+    const Imf::InputFile file(path.c_str());
+    Attributes found;
+    const Imf::Header& header = file.header();
+    for (auto entry = header.begin(); entry != header.end(); ++entry) {
+      const auto add = [&](const decltype(ImageAttribute::value)& value) {
+        found.emplace_back(entry.name(), value_text({entry.name(), value}));
+      };
+      const Imf::Attribute& attribute = entry.attribute();
+      if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute)) {
+        add(text->value());
+      } else if (const auto* whole = dynamic_cast<const Imf::IntAttribute*>(&attribute)) {
+        add(whole->value());
+      } else if (const auto* number = dynamic_cast<const Imf::DoubleAttribute*>(&attribute)) {
+        add(number->value());
+      } else if (const auto* vector = dynamic_cast<const Imf::V3dAttribute*>(&attribute)) {
+        add(glm::dvec3(vector->value().x, vector->value().y, vector->value().z));
+      }
+    }
+    return found;
+  } catch (const std::exception& error) {
+    throw unreadable(path, error.what());
+  }
+}
+
+// libpng's texts of a file. No C++ object may live in here: after an error libpng jumps back into
+// it.
+void read_texts(png_structp png, png_infop info, std::FILE* file, png_textp* texts, int* count) {
+  if (setjmp(png_jmpbuf(png)) != 0) return;
+  png_init_io(png, file);
+  png_read_info(png, info);
+  png_get_text(png, info, texts, count);
+}
+
+// Those before the pixels.
+Attributes png_texts(const fs::path& path) {
+  std::string complaint;
+  const auto note_error = [](png_structp png, png_const_charp message) {
+    *static_cast<std::string*>(png_get_error_ptr(png)) = message;
+    png_longjmp(png, 1);
+  };
+  const auto ignore_warning = [](png_structp /*png*/, png_const_charp /*message*/) {};
+  std::FILE* stream = std::fopen(path.c_str(), "rb");
+  if (stream == nullptr) complaint = std::generic_category().message(errno);
+  png_structp png =
+      png_create_read_struct(PNG_LIBPNG_VER_STRING, &complaint, note_error, ignore_warning);
+  png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
+  if (info == nullptr) complaint = "not enough memory";
+  png_textp texts = nullptr;
+  int count = 0;
+  if (complaint.empty()) read_texts(png, info, stream, &texts, &count);
+  Attributes found;
+  for (int i = 0; i < count; ++i) found.emplace_back(texts[i].key, texts[i].text);
+  png_destroy_read_struct(&png, &info, nullptr);
+  if (stream != nullptr) std::fclose(stream);
+  if (!complaint.empty()) throw unreadable(path, complaint);
+  return found;
+}
+
+// Throws UsageError for a picture that is neither PNG nor EXR.
+bool is_png(const fs::path& path) {
+  const ImageFormat format = image_format(path);
+  if (format != ImageFormat::pfm) return format == ImageFormat::png;
+  throw UsageError(path.string() + ": PNG and EXR are read, PFM is only written.");
+}
+
 }  // namespace
 
 Frame read_image(const fs::path& path) {
-  return image_format(path) == ImageFormat::png ? read_png(path) : read_exr(path);
+  return is_png(path) ? read_png(path) : read_exr(path);
+}
+
+std::vector<std::pair<std::string, std::string>> read_attributes(const fs::path& path) {
+  return is_png(path) ? png_texts(path) : exr_attributes(path);
 }
 
 }  // namespace trisect

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "app/frame/frame.h"
 
@@ -12,5 +15,9 @@ namespace trisect {
 // counts as hit everywhere. Throws InputError, naming the file, and UsageError for an unknown
 // ending.
 Frame read_image(const std::filesystem::path& path);
+
+// What a PNG or EXR says of its picture in texts or attributes, as value_text() has it: name and
+// value, of EXR those that write_exr() can write. Throws InputError and UsageError as read_image().
+std::vector<std::pair<std::string, std::string>> read_attributes(const std::filesystem::path& path);
 
 }  // namespace trisect

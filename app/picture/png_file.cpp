@@ -2,8 +2,14 @@
 #include <png.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <csetjmp>
+#include <cstddef>
 #include <cstdint>
+#include <cstdio>
+#include <string>
+#include <system_error>
 #include <vector>
 
 #include "app/base/error.h"
@@ -11,7 +17,6 @@
 #include "app/picture/image_file.h"
 
 namespace trisect {
-
 namespace {
 
 uint8_t byte_of(float share) {
@@ -28,24 +33,86 @@ vec4 divided_by_alpha(const vec4& color) {
   return divided;
 }
 
+// Keeps what libpng says is wrong, and goes back to setjmp().
+void note_error(png_structp png, png_const_charp message) {
+  *static_cast<std::string*>(png_get_error_ptr(png)) = message;
+  png_longjmp(png, 1);
+}
+
+void ignore_warning(png_structp /*png*/, png_const_charp /*message*/) {}
+
+// A picture's rows and texts as libpng takes them.
+struct PngContent {
+  uint32_t width;
+  uint32_t height;
+  bool alpha;
+  std::vector<uint8_t*> rows;
+  std::vector<png_text> texts;
+};
+
+// No C++ object may live in here: after an error libpng jumps back into it.
+void write_content(png_structp png, png_infop info, std::FILE* file, PngContent& content) {
+  if (setjmp(png_jmpbuf(png)) != 0) return;
+  png_init_io(png, file);
+  png_set_IHDR(png, info, content.width, content.height, 8,
+               content.alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+  png_set_text(png, info, content.texts.data(), static_cast<int>(content.texts.size()));
+  png_set_rows(png, info, content.rows.data());
+  png_write_png(png, info, PNG_TRANSFORM_IDENTITY, nullptr);
+}
+
+// Latin letters and signs go as they are, the rest as UTF-8.
+png_text text_of(const std::string& name, const std::string& value) {
+  const bool is_plain =
+      std::all_of(value.begin(), value.end(), [](char c) { return c >= ' ' && c <= '~'; });
+  png_text text{};
+  text.compression = is_plain ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
+  // libpng reads them only.
+  text.key = const_cast<char*>(name.c_str());
+  text.text = const_cast<char*>(value.c_str());
+  return text;
+}
+
 }  // namespace
 
-void write_png(const Frame& frame, const AtomicFile& file, bool alpha) {
+void write_png(const Frame& frame, const AtomicFile& file, const ImageContents& contents) {
+  const std::size_t components = contents.alpha ? 4 : 3;
   std::vector<uint8_t> bytes;
-  bytes.reserve(frame.colors.size() * (alpha ? 4 : 3));
+  bytes.reserve(frame.colors.size() * components);
   for (const vec4& pixel : frame.colors) {
-    const vec4 color = alpha ? divided_by_alpha(pixel) : pixel;
-    for (int i = 0; i < (alpha ? 4 : 3); ++i) bytes.push_back(byte_of(color[i]));
+    const vec4 color = contents.alpha ? divided_by_alpha(pixel) : pixel;
+    for (std::size_t i = 0; i < components; ++i)
+      bytes.push_back(byte_of(color[static_cast<int>(i)]));
   }
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  image.width = frame.width;
-  image.height = frame.height;
-  // Eight bits a component, which libpng marks as sRGB.
-  image.format = alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
-  if (png_image_write_to_file(&image, file.temporary().c_str(), 0, bytes.data(), 0, nullptr) == 0) {
-    throw InputError(fmt::format("{}: could not be written: {}.", file.target().string(),
-                                 static_cast<const char*>(image.message)));
+  PngContent content{frame.width, frame.height, contents.alpha, {}, {}};
+  for (uint32_t row = 0; row < frame.height; ++row) {
+    content.rows.push_back(bytes.data() + row * frame.width * components);
+  }
+  std::vector<std::string> values;
+  values.reserve(contents.attributes.size());
+  for (const ImageAttribute& attribute : contents.attributes) {
+    values.push_back(value_text(attribute));
+    content.texts.push_back(text_of(attribute.name, values.back()));
+  }
+
+  std::string complaint;
+  std::FILE* stream = std::fopen(file.temporary().c_str(), "wb");
+  if (stream == nullptr) complaint = std::generic_category().message(errno);
+  png_structp png =
+      png_create_write_struct(PNG_LIBPNG_VER_STRING, &complaint, note_error, ignore_warning);
+  png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
+  if (info == nullptr) complaint = "not enough memory";
+  if (complaint.empty()) write_content(png, info, stream, content);
+  png_destroy_write_struct(&png, &info);
+  // What is still in the stream's memory may not fit on the disk.
+  if (stream != nullptr && std::fclose(stream) != 0 && complaint.empty()) {
+    complaint = std::generic_category().message(errno);
+  }
+  if (!complaint.empty()) {
+    throw InputError(
+        fmt::format("{}: could not be written: {}.", file.target().string(), complaint));
   }
 }
 

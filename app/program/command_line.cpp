@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/base/error.h"
@@ -13,6 +16,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/option_groups.h"
 #include "app/cli/output.h"
+#include "app/cli/picture_source.h"
 #include "app/cli/scene_options.h"
 #include "app/cli/suggestions.h"
 #include "app/program/help_format.h"
@@ -77,19 +81,29 @@ Command add_render(CLI::App& app) {
     RenderOptions options;
     SceneText scene;
     std::optional<std::string> backend;
+    std::optional<std::string> aovs;
   };
   const auto [command, values] =
       add_command<Values>(app, "render", "Render a model to an image file");
   RenderOptions& options = values->options;
   add_scene(command, options, values->scene);
+  command.get_option("MODEL")->required(false);
   command
-      .add_option(
-          "-o,--output", options.output,
-          "Image to write: .png (8-bit sRGB) or .exr (linear float, with AOVs); - writes PNG to "
-          "standard output")
+      .add_option("--from", options.from,
+                  "Make this picture again, a .png or .exr of this program: its model and options "
+                  "are taken where none are given")
+      ->group(option_group::kModel)
+      ->check(not_empty())
+      ->check(suggest_images())
+      ->type_name("FILE");
+  command
+      .add_option("-o,--output", options.output,
+                  "Image to write: .png (8-bit sRGB), .exr (linear float, with AOVs) or .pfm "
+                  "(float, one of "
+                  "them); - writes PNG to standard output")
       ->group(option_group::kOutput)
       ->required()
-      ->check(suggest_images())
+      ->check(suggest_files({".png", ".exr", ".pfm"}))
       ->type_name("FILE");
   command
       .add_option("--backend", values->backend,
@@ -98,6 +112,12 @@ Command add_render(CLI::App& app) {
       ->group(option_group::kTracing)
       ->check(one_of({"vulkan", "opengl", "cpu", "oracle"}))
       ->type_name("NAME");
+  command
+      .add_option("--aov", values->aovs,
+                  "What an EXR holds of each pixel, of color, Z, N, G, patch, uv, P (position) and "
+                  "evals, default color,Z,N,G,patch,uv; a PFM holds one of them, default color")
+      ->group(option_group::kOutput)
+      ->type_name("A,B,...");
   command
       .add_flag("--validation", options.validation,
                 "Run under the Vulkan validation layer, fail on any message")
@@ -123,6 +143,7 @@ Command add_render(CLI::App& app) {
             if (values->backend) {
               values->options.backend = backend_named("--backend", *values->backend);
             }
+            if (values->aovs) values->options.aovs = parse_aovs("--aov", *values->aovs);
             return render(values->options);
           }};
 }
@@ -322,6 +343,21 @@ Command add_devices(CLI::App& app) {
   return {&command, [options = options] { return list_devices(*options); }};
 }
 
+// Where `render` is to make a picture again: puts the options that its file names before those that
+// are given, which count if both are there. Throws InputError if the file names none.
+void insert_saved_options(std::vector<std::string>& words) {
+  if (words.empty() || words[0] != "render") return;
+  const std::string option = "--from";
+  std::string file;
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    if (words[i] == option && i + 1 < words.size()) file = words[i + 1];
+    if (words[i].starts_with(option + "=")) file = words[i].substr(option.size() + 1);
+  }
+  if (file.empty()) return;
+  const std::vector<std::string> saved = saved_picture(file).words;
+  words.insert(words.begin() + 1, saved.begin(), saved.end());
+}
+
 // Of a command that adds itself: bench and view.
 template <typename Other>
 Command add_other(CLI::App& app, const std::string& name) {
@@ -353,12 +389,15 @@ CommandLine::CommandLine()
 }
 
 bool CommandLine::parse(int argc, const char* const* argv) {
-  const auto is_named = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
-  if (argc > 1 && argv[1][0] != '-' && app_.get_subcommands(is_named).empty()) {
-    throw UsageError(fmt::format("'{}' is not a command (see trisect --help)", argv[1]));
+  std::vector<std::string> words(argv + 1, argv + argc);
+  const auto is_named = [&](const CLI::App* command) { return command->get_name() == words[0]; };
+  if (!words.empty() && !words[0].starts_with('-') && app_.get_subcommands(is_named).empty()) {
+    throw UsageError(fmt::format("'{}' is not a command (see trisect --help)", words[0]));
   }
+  insert_saved_options(words);
+  std::reverse(words.begin(), words.end());  // CLI11 takes them from the end
   try {
-    app_.parse(argc, argv);
+    app_.parse(std::move(words));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
       app_.exit(error);

@@ -27,7 +27,7 @@ struct OptionPage {
 struct CommandPage {
   std::string path;     // "trisect bench speed"
   std::string summary;  // one sentence without a full stop
-  std::string usage;    // "trisect render MODEL -o FILE [OPTION]..."
+  std::string usage;    // "trisect export MODEL -o FILE (--subdivide N | --error EPS) [OPTION]..."
   std::vector<OptionPage> options;
   std::vector<CommandPage> commands;
 

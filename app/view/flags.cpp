@@ -4,28 +4,19 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <iterator>
 #include <sstream>
 #include <vector>
 
 #include "app/base/error.h"
+#include "app/base/number_text.h"
 #include "app/cli/load_scene.h"
 #include "app/cli/scene_options.h"
 #include "app/dispatch/accel.h"
 
 namespace trisect::view {
 namespace {
-
-// The shortest text that CLI11 reads back to this value. CLI11 reads a long double and rounds it to
-// double: for about one shortest text in ten thousand these two roundings give another double. 17
-// digits are so close to the value that this cannot happen.
-std::string number(double value) {
-  std::string text = fmt::format("{}", value);
-  if (static_cast<double>(std::strtold(text.c_str(), nullptr)) == value) return text;
-  return fmt::format("{:.17g}", value);
-}
 
 // Each number is the shortest text of its value, as parse_triple() reads doubles directly.
 std::string triple(const glm::dvec3& value) {
@@ -48,7 +39,7 @@ bool names_command(const std::vector<std::string>& words) {
 std::string flags_of(const RenderOptions& options) {
   std::string text =
       fmt::format("--size {}x{} --surface {} --alpha {} --shell {} --solver {}", options.width,
-                  options.height, surface_name(options.surface), number(options.alpha),
+                  options.height, surface_name(options.surface), number_text(options.alpha),
                   shell_name(options.shell), solver_name(options.solver));
   const auto add = [&text](const char* option, const std::string& value) {
     text += fmt::format(" {} {}", option, value);
@@ -60,7 +51,7 @@ std::string flags_of(const RenderOptions& options) {
   // Compared as texts: -0 equals 0 as a number, but renders other bits.
   const std::string up = triple(options.up);
   if (up != triple(RenderOptions{}.up)) add("--up", up);
-  add("--fov", number(options.fov));
+  add("--fov", number_text(options.fov));
   if (options.light) add("--light", triple(*options.light));
   if (options.shadows) text += " --shadows";
   if (options.shading) add("--shading", shading_name(*options.shading));
@@ -70,8 +61,8 @@ std::string flags_of(const RenderOptions& options) {
   }
   if (options.spp != 1) add("--spp", std::to_string(options.spp));
   const MeshOptions& mesh = options.mesh;
-  if (mesh.crease_degrees) add("--crease", number(*mesh.crease_degrees));
-  if (mesh.weld > 0.0) add("--weld", number(mesh.weld));
+  if (mesh.crease_degrees) add("--crease", number_text(*mesh.crease_degrees));
+  if (mesh.weld > 0.0) add("--weld", number_text(mesh.weld));
   if (mesh.repair) text += " --repair";
   return text;
 }

@@ -47,7 +47,7 @@ class LoadedModel {
   [[nodiscard]] const std::shared_ptr<const BakedScene>& shared_scene() const {
     return current_->scene;
   }
-  [[nodiscard]] const std::string& summary() const { return current_->summary; }
+  [[nodiscard]] const FileFacts& file() const { return current_->file; }
 
   // How many scenes have been loaded.
   [[nodiscard]] uint64_t number() const { return number_; }

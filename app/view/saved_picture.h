@@ -3,9 +3,8 @@
 
 #include <string>
 
-#include "app/bake/bake.h"
 #include "app/cli/options.h"
-#include "app/mesh/mesh.h"
+#include "app/view/loaded_model.h"
 #include "vk/device.h"
 
 namespace trisect::view {
@@ -13,7 +12,7 @@ namespace trisect::view {
 // Renders the image that `trisect render` renders with these options, bit for bit, and writes it to
 // the file, a .png or .exr. On an error no file is left. Throws UsageError, InputError,
 // DeviceError.
-void save_picture(const gpu::Device& device, const Mesh& mesh, const BakedScene& scene,
-                  const RenderOptions& options, const std::string& file);
+void save_picture(const gpu::Device& device, const LoadedModel& model, const RenderOptions& options,
+                  const std::string& file);
 
 }  // namespace trisect::view

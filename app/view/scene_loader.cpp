@@ -7,23 +7,25 @@
 
 #include "app/bake/bvh.h"
 #include "app/bake/subpatch_bounds.h"
+#include "app/cli/model_sha256.h"
 #include "app/mesh/model_file.h"
 
 namespace trisect::view {
 namespace {
 
 // mesh: of an earlier request for the same model and mesh options, or null to read the file.
-// before: the scene that was baked from that mesh, whose tree can be refitted; summary: its
-// summary.
+// before: the scene that was baked from that mesh, whose tree can be refitted; file: of that mesh.
 std::variant<ViewedScene, LoadFailure> load(const SceneRequest& request,
                                             std::shared_ptr<const Mesh> mesh,
                                             const std::shared_ptr<const BakedScene>& before,
-                                            std::string summary) {
+                                            FileFacts file) {
   try {
     const bool is_known = mesh != nullptr;
     if (!is_known) {
-      BuiltMesh built = build_mesh(read_model(request.model), request.model, request.mesh);
-      summary = describe(built.report);
+      PolygonModel model = read_model(request.model);
+      file.sha256 = model_sha256(request.model, model.files);
+      BuiltMesh built = build_mesh(std::move(model), request.model, request.mesh);
+      file.summary = describe(built.report);
       mesh = std::make_shared<const Mesh>(std::move(built.mesh));
     }
     BakedScene scene = bake_with_subpatches(*mesh, request.choice);
@@ -33,7 +35,7 @@ std::variant<ViewedScene, LoadFailure> load(const SceneRequest& request,
       scene.bvh = bvh ? std::move(*bvh) : build_bvh(scene);
     }
     return ViewedScene{request, std::move(mesh),
-                       std::make_shared<const BakedScene>(std::move(scene)), std::move(summary)};
+                       std::make_shared<const BakedScene>(std::move(scene)), std::move(file)};
   } catch (const std::bad_alloc&) {
     return LoadFailure{request, request.model + ": not enough memory for this model.",
                        std::current_exception()};
@@ -54,7 +56,7 @@ void SceneLoader::ask(const SceneRequest& request) {
   const bool same_mesh =
       mesh_ && mesh_request_.model == request.model && mesh_request_.mesh == request.mesh;
   running_ =
-      std::async(std::launch::async, load, request, same_mesh ? mesh_ : nullptr, scene_, summary_);
+      std::async(std::launch::async, load, request, same_mesh ? mesh_ : nullptr, scene_, file_);
 }
 
 std::optional<SceneLoader::Result> SceneLoader::poll() {
@@ -67,7 +69,7 @@ std::optional<SceneLoader::Result> SceneLoader::poll() {
     mesh_ = loaded->mesh;
     scene_ = loaded->scene;
     mesh_request_ = loaded->request;
-    summary_ = loaded->summary;
+    file_ = loaded->file;
   }
   if (!waiting_) return result;
   const SceneRequest next = *std::exchange(waiting_, std::nullopt);

@@ -24,11 +24,17 @@ struct SceneRequest {
   bool operator==(const SceneRequest&) const = default;
 };
 
+// Of a model's file.
+struct FileFacts {
+  std::string summary;  // one line
+  std::string sha256;   // model_sha256()
+};
+
 struct ViewedScene {
   SceneRequest request;
   std::shared_ptr<const Mesh> mesh;
   std::shared_ptr<const BakedScene> scene;  // with the bounds of its subpatches
-  std::string summary;                      // of the file, one line
+  FileFacts file;
 };
 
 // Why a scene could not be loaded.
@@ -51,7 +57,7 @@ class SceneLoader {
     mesh_ = scene.mesh;
     scene_ = scene.scene;
     mesh_request_ = scene.request;
-    summary_ = scene.summary;
+    file_ = scene.file;
   }
 
   // Forgets the last request and its mesh: an equal one reads the file again.
@@ -74,7 +80,7 @@ class SceneLoader {
   std::shared_ptr<const Mesh> mesh_;
   std::shared_ptr<const BakedScene> scene_;
   SceneRequest mesh_request_;
-  std::string summary_;
+  FileFacts file_;
   std::future<Result> running_;
 };
 

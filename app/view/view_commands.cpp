@@ -87,7 +87,7 @@ void ViewCommands::take_loaded() {
   if (!change) return;
   scheduler_.request_draws(FrameScheduler::kDrawsForPanel);
   if (*change == LoadedModel::Change::failed) return;
-  facts.model = state_.model.summary();
+  facts.model = state_.model.file().summary;
   if (*change == LoadedModel::Change::rebaked) return;
   facts.message.clear();
   facts.recent = state_.model.recent();
@@ -151,7 +151,7 @@ std::string ViewCommands::next_file() {
 bool ViewCommands::save(const std::string& file) {
   if (!finish_loading()) return false;
   screen_.wait();
-  save_picture(device_, state_.model.mesh(), state_.model.scene(), state_.render_options(), file);
+  save_picture(device_, state_.model, state_.render_options(), file);
   state_.facts.message = "saved " + file;
   return true;
 }

@@ -21,20 +21,20 @@ TEST(ToJson, HasEveryKeyOfTheContract) {
   options.model = "a \"b\"\xff.obj";
   options.runs = 3;
   RenderStatistics statistics;
-  statistics.device = "cpu";
+  statistics.source.device = "cpu";
   statistics.patches = 12;
   statistics.hits = 34;
   statistics.frames = {{3.0, 4.0}, {1.0, 2.0}, {2.0, 9.0}};
   const auto json = nlohmann::ordered_json::parse(to_json(options, statistics));
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_EQ(keys,
-            (std::vector<std::string>{
-                "program", "version",    "commit",  "device",      "driver",  "backend",  "model",
-                "patches", "width",      "height",  "surface",     "shell",   "solver",   "accel",
-                "rank",    "alpha",      "hits",    "scene_bytes", "camera",  "light",    "shading",
-                "color",   "background", "crease",  "weld",        "repair",  "shadows",  "spp",
-                "runs",    "gpu_ms",     "wall_ms", "load_ms",     "bake_ms", "upload_ms"}));
+  EXPECT_EQ(keys, (std::vector<std::string>{
+                      "program",     "version",      "commit",  "device",  "driver",   "backend",
+                      "model",       "model_sha256", "patches", "width",   "height",   "surface",
+                      "shell",       "solver",       "accel",   "rank",    "alpha",    "hits",
+                      "scene_bytes", "camera",       "light",   "shading", "color",    "background",
+                      "crease",      "weld",         "repair",  "shadows", "spp",      "runs",
+                      "gpu_ms",      "wall_ms",      "load_ms", "bake_ms", "upload_ms"}));
   EXPECT_EQ(json["program"], "trisect");
   EXPECT_EQ(json["version"], TRISECT_VERSION);
   EXPECT_EQ(json["camera"]["fov"], 45.0);

@@ -11,6 +11,7 @@
 namespace trisect {
 namespace {
 
+using glm::dvec2;
 using glm::dvec3;
 
 // The kernel's ray direction through an image position, in double precision.
@@ -51,6 +52,17 @@ TEST(Camera, RowZeroIsOnTopAndColumnZeroOnTheLeft) {
             kRounding);
   EXPECT_LT(glm::distance(direction(params, 0.0, 50.0), glm::normalize(dvec3(-2.0, 0.0, -1.0))),
             kRounding);
+}
+
+// The host's direction of a pixel is the kernels'.
+TEST(ViewDirection, IsThatOfTheRays) {
+  const Camera camera{{3, 4, 5}, {-1, 2, 0.5}, {0.2, 1, -0.3}, 60.0};
+  const TraceParams params = rays(camera, 640, 480);
+  for (const dvec2 at : {dvec2(0.5, 0.5), dvec2(639.5, 0.5), dvec2(12.5, 479.5), dvec2(320, 240)}) {
+    EXPECT_LT(
+        glm::distance(view_direction(camera, 640, 480, at.x, at.y), direction(params, at.x, at.y)),
+        kRounding);
+  }
 }
 
 TEST(Camera, KeepsWideAndNarrowFields) {

@@ -1,14 +1,21 @@
 #include "app/picture/image_file.h"
-#include "app/base/srgb.h"
 
 #include <gtest/gtest.h>
 #include <png.h>
 #include <sys/stat.h>
 
+#include <cstdlib>
+#include <cstring>
 #include <fstream>
+#include <map>
+#include <string>
+#include <vector>
 
 #include "app/base/error.h"
+#include "app/base/srgb.h"
+#include "app/picture/image_reader.h"
 #include "tests/support/exr_reader.h"
+#include "tests/support/file_content.h"
 #include "tests/support/temporary_folder.h"
 
 namespace trisect {
@@ -60,7 +67,7 @@ TEST(WritePng, WritesColoursThatAreNotMultipliedWithAlpha) {
   }
   frame.colors[1].w = 0.25F;
   AtomicFile file(folder / "a.png");
-  write_png(frame, file, true);
+  write_png(frame, file, {.alpha = true});
   file.commit();
 
   png_image image{};
@@ -98,11 +105,68 @@ TEST(WritePng, WritesTheFramesBytesRowByRow) {
   }
 }
 
+// PFM's rows go from the lowest up.
+TEST(WritePfm, WritesColoursOrOneOutput) {
+  const test::TemporaryFolder folder;
+  const Frame frame = sample(true);
+  const auto written = [&](Aov aov, const std::string& head, std::size_t components) {
+    ImageContents contents;
+    contents.aovs = {aov};
+    for (const vec4& color : frame.colors) contents.positions.emplace_back(color);
+    save_image(frame, folder / "a.pfm", contents);
+    const std::string bytes = test::content_of(folder / "a.pfm");
+    EXPECT_EQ(bytes.substr(0, head.size()), head);
+    std::vector<float> numbers(15 * components);
+    EXPECT_EQ(bytes.size(), head.size() + numbers.size() * sizeof(float));
+    std::memcpy(numbers.data(), bytes.data() + head.size(), numbers.size() * sizeof(float));
+    return numbers;
+  };
+  const std::string three = "PF\n5 3\n-1.0\n";
+  const std::size_t lowest = 10;
+  EXPECT_EQ(written(Aov::color, three, 3)[1], linear_from_srgb(frame.colors[lowest].y));
+  EXPECT_EQ(written(Aov::color, three, 3)[3 * 14 + 2], linear_from_srgb(frame.colors[4].z));
+  EXPECT_EQ(written(Aov::depth, "Pf\n5 3\n-1.0\n", 1)[2], frame.aovs[lowest + 2].normal_z.w);
+  EXPECT_EQ(written(Aov::normal, three, 3)[2], frame.aovs[lowest].normal_z.z);
+  EXPECT_EQ(written(Aov::geometric, three, 3)[0], frame.aovs[lowest].geometric_u.x);
+  EXPECT_EQ(written(Aov::position, three, 3)[3 * 5], frame.colors[5].x);
+}
+
+// Every kind of attribute comes back as its text, whatever the letters.
+TEST(ReadAttributes, FindsWhatWasWritten) {
+  const test::TemporaryFolder folder;
+  const double unusual = 0.1234567890123456789e-7;
+  ImageContents contents;
+  contents.attributes = {{"model", std::string("M\xc3\xb6"
+                                               "bel \"1\".obj")},
+                         {"rank", 7},
+                         {"alpha", unusual},
+                         {"eye", glm::dvec3(0.1, -2.0, 1e300)}};
+  for (const char* name : {"a.png", "a.exr"}) {
+    save_image(sample(false), folder / name, contents);
+    std::map<std::string, std::string> said;
+    for (const auto& [key, value] : read_attributes(folder / name)) said[key] = value;
+    EXPECT_EQ(said["model"],
+              "M\xc3\xb6"
+              "bel \"1\".obj")
+        << name;
+    EXPECT_EQ(said["rank"], "7");
+    EXPECT_EQ(std::strtod(said["alpha"].c_str(), nullptr), unusual);
+    EXPECT_EQ(said["eye"], "0.1,-2,1e+300");
+  }
+}
+
+TEST(WriteExr, NamesThePrimariesOfSrgb) {
+  const test::TemporaryFolder folder;
+  save_image(sample(false), folder / "a.exr");
+  const std::vector<float> rec_709{0.64F, 0.33F, 0.30F, 0.60F, 0.15F, 0.06F, 0.3127F, 0.3290F};
+  EXPECT_EQ(test::exr_chromaticities(folder / "a.exr"), rec_709);
+}
+
 TEST(WriteExr, KeepsEveryChannel) {
   const test::TemporaryFolder folder;
   const Frame frame = sample(true);
   AtomicFile file(folder / "a.exr");
-  write_exr(frame, false, file);
+  write_exr(frame, file);
   file.commit();
 
   const std::map<std::string, std::string> expected{

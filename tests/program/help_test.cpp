@@ -100,7 +100,7 @@ TEST(Help, ListsCommandsGroupsExamplesAndExitCodes) {
   }
   const std::string render = help_text(program.commands.front(), 80);
   last = 0;
-  for (const char* part : {"Usage: trisect render MODEL -o FILE [OPTION]...\n", "\nModel:\n",
+  for (const char* part : {"Usage: trisect render [MODEL] -o FILE [OPTION]...\n", "\nModel:\n",
                            "\nSurface:\n", "\nCamera:\n", "\nPicture:\n",
                            "\nHow rays are traced:\n", "\nOutput:\n", "\nExamples:\n"}) {
     const std::size_t at = render.find(part);

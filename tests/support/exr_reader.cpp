@@ -1,14 +1,10 @@
 #include "tests/support/exr_reader.h"
 
 #include <ImfChannelList.h>
-#include <ImfDoubleAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
-#include <ImfIntAttribute.h>
-#include <ImfStringAttribute.h>
-#include <ImfVecAttribute.h>
-#include <fmt/format.h>
+#include <ImfStandardAttributes.h>
 
 #include <cstddef>
 
@@ -58,23 +54,11 @@ std::map<std::string, std::string> exr_channels(const std::filesystem::path& pat
   return names;
 }
 
-std::map<std::string, std::string> exr_attributes(const std::filesystem::path& path) {
+std::vector<float> exr_chromaticities(const std::filesystem::path& path) {
   const Imf::InputFile file(path.c_str());
-  std::map<std::string, std::string> texts;
-  for (auto at = file.header().begin(); at != file.header().end(); ++at) {
-    const Imf::Attribute& attribute = at.attribute();
-    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute)) {
-      texts[at.name()] = text->value();
-    } else if (const auto* whole = dynamic_cast<const Imf::IntAttribute*>(&attribute)) {
-      texts[at.name()] = fmt::format("{}", whole->value());
-    } else if (const auto* number = dynamic_cast<const Imf::DoubleAttribute*>(&attribute)) {
-      texts[at.name()] = fmt::format("{}", number->value());
-    } else if (const auto* triple = dynamic_cast<const Imf::V3dAttribute*>(&attribute)) {
-      const Imath::V3d& v = triple->value();
-      texts[at.name()] = fmt::format("{},{},{}", v.x, v.y, v.z);
-    }
-  }
-  return texts;
+  if (!Imf::hasChromaticities(file.header())) return {};
+  const Imf::Chromaticities& c = Imf::chromaticities(file.header());
+  return {c.red.x, c.red.y, c.green.x, c.green.y, c.blue.x, c.blue.y, c.white.x, c.white.y};
 }
 
 }  // namespace trisect::test

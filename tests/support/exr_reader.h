@@ -17,8 +17,7 @@ Frame read_exr(const std::filesystem::path& path);
 // The names of a file's channels, each with its type: "float", "uint" or "half".
 std::map<std::string, std::string> exr_channels(const std::filesystem::path& path);
 
-// The attributes of a file's header that are text, whole numbers, numbers or triples of numbers, as
-// a command line has them: "phong", "3", "0.5", "0,1,0".
-std::map<std::string, std::string> exr_attributes(const std::filesystem::path& path);
+// x and y of red, green, blue and white that a file names; empty if it names none.
+std::vector<float> exr_chromaticities(const std::filesystem::path& path);
 
 }  // namespace trisect::test

@@ -1,0 +1,46 @@
+#include "app/cli/picture_contents.h"
+
+#include <algorithm>
+
+#include "app/base/error.h"
+#include "app/frame/supersampling.h"
+#include "app/picture/hit_positions.h"
+
+namespace trisect {
+
+PictureContents::PictureContents(ImageFormat format, const RenderOptions& options)
+    : aovs_(options.aovs) {
+  if (format == ImageFormat::png && !aovs_.empty()) {
+    throw UsageError("--aov: a PNG holds the colour alone; EXR and PFM hold others.");
+  }
+  if (format == ImageFormat::png) aovs_ = {Aov::color};
+  if (format == ImageFormat::pfm) {
+    if (aovs_.empty()) aovs_ = {Aov::color};
+    if (aovs_.size() > 1 || has(Aov::patch) || has(Aov::uv) || has(Aov::evals)) {
+      throw UsageError("--aov: a PFM holds one of color, Z, N, G and P.");
+    }
+  }
+  if (format == ImageFormat::exr) {
+    if (aovs_.empty()) aovs_ = ImageContents{}.aovs;
+    if (options.evals && !has(Aov::evals)) aovs_.push_back(Aov::evals);
+  }
+  needs_aovs_ = options.evals || aovs_ != std::vector<Aov>{Aov::color};
+}
+
+ImageContents PictureContents::of(const Frame& frame, const RenderOptions& options,
+                                  const PictureSource& source) const {
+  ImageContents contents;
+  contents.aovs = aovs_;
+  contents.alpha = options.background == Background::none;
+  contents.attributes = attributes_of(options, source);
+  if (has(Aov::position)) {
+    contents.positions = hit_positions(frame, source.settings.camera, samples_across(options.spp));
+  }
+  return contents;
+}
+
+bool PictureContents::has(Aov aov) const {
+  return std::find(aovs_.begin(), aovs_.end(), aov) != aovs_.end();
+}
+
+}  // namespace trisect
