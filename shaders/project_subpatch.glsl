@@ -11,7 +11,8 @@ vec3 project_ball(vec3 p, real radius) {
   // By so much (p + d).xy / (before + d.z / axis) may differ from p.xy / before, |d| <= radius.
   real shift = radius * (real(1.0) + length2(across) / axis) / closest;
   vec2 pixel = vec2(params.frame_x.w, params.frame_y.w);
-  vec2 middle = vec2(real(0.5) * real(params.width), real(0.5) * real(params.height));
+  vec2 middle = vec2(real(0.5) * real(params.image_width) - real(params.first_x),
+                     real(0.5) * real(params.image_height) - real(params.first_y));
   return vec3(across / pixel + middle, shift / min(pixel.x, pixel.y));
 }
 
@@ -48,8 +49,8 @@ ProjectedSubpatch project_subpatch(uint index) {
   ControlNet3D net = control_net_3d(at, vec3(bounds.corner), vec3(bounds.edge), wide);
 
   // The ray of an image corner is the most slanted, so its tolerance is the largest.
-  RayFrame corner = camera_frame(vec2(real(0.5) * real(params.width) * params.frame_x.w,
-                                      real(0.5) * real(params.height) * params.frame_y.w));
+  RayFrame corner = camera_frame(vec2(real(0.5) * real(params.image_width) * params.frame_x.w,
+                                      real(0.5) * real(params.image_height) * params.frame_y.w));
   real axial = position_tolerance(frame, tri);
   real radius = bounds.corner.w + real(2.0) * corner.stretch * axial;
   vec3 s0 = project_ball(net.b300, radius);

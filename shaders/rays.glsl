@@ -49,13 +49,13 @@ PixelRay ray_through(vec3 to_near, vec2 across) {
   return ray;
 }
 
-// The camera ray through the centre of a pixel.
+// The camera ray through the centre of a pixel of what is traced.
 PixelRay pixel_ray(uvec2 pixel) {
-  real x = real(pixel.x) + real(0.5);
-  real y = real(pixel.y) + real(0.5);
+  real x = real(pixel.x + params.first_x) + real(0.5);
+  real y = real(pixel.y + params.first_y) + real(0.5);
   vec3 to_near = vec3(params.ray_corner) + vec3(params.ray_dx) * x + vec3(params.ray_dy) * y;
-  vec2 across = vec2(params.frame_x.w * (x - real(0.5) * real(params.width)),
-                     params.frame_y.w * (y - real(0.5) * real(params.height)));
+  vec2 across = vec2(params.frame_x.w * (x - real(0.5) * real(params.image_width)),
+                     params.frame_y.w * (y - real(0.5) * real(params.image_height)));
   return ray_through(to_near, across);
 }
 

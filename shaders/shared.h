@@ -136,7 +136,7 @@ struct TraceParams {
   vec4 color;    // xyz: of the surface, sRGB-encoded, for SHADING_PLAIN and SHADING_GRID; w: 1: of
                  // triangles that have no colour of their own
   vec4 background;  // xyz: the colour where nothing is hit; w: 1: the sky instead
-  uint width;       // image size in pixels
+  uint width;       // size in pixels of what is traced: the image, or a part of it
   uint height;
   uint triangle_count;
   uint rank;         // bisection: rank - 1 halvings
@@ -147,6 +147,12 @@ struct TraceParams {
   uint shading;      // SHADING_...
   float depth_low;   // SHADING_DEPTH: the distance from the eye that is white
   float depth_high;  // and that which is black
+  // The top left pixel of what is traced in the image, and the image's size. Rays are the same
+  // whether the image is traced whole or in parts, bit for bit.
+  uint first_x;
+  uint first_y;
+  uint image_width;
+  uint image_height;
   uint padding;
 };
 

@@ -9,6 +9,9 @@ namespace trisect {
 // Renders the model to the output file and prints the figures; returns an exit code.
 int render(RenderOptions options);
 
+// Puts images of parts together; returns an exit code.
+int stitch_parts(const StitchOptions& options);
+
 // Compares the solvers with the oracle and prints a table. Returns exit_different if the robust
 // solver does not keep its promises.
 int accuracy(const AccuracyOptions& options);

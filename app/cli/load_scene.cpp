@@ -36,8 +36,9 @@ auto timed(const std::string& name, double& ms, Step&& step) {
 
 AccelRequest accel_request(const RenderOptions& options, bool subgroups) {
   const uint32_t side = samples_across(options.spp);
-  return {options.accel,        options.solver,        options.shadows,
-          options.width * side, options.height * side, subgroups};
+  const uint32_t width = options.tile ? options.tile->width : options.width;
+  const uint32_t height = options.tile ? options.tile->height : options.height;
+  return {options.accel, options.solver, options.shadows, width * side, height * side, subgroups};
 }
 
 Accel accel_for(const RenderOptions& options, Backend backend, const BakedScene& scene) {
@@ -59,6 +60,10 @@ TraceSettings settings_of(const RenderOptions& options, const Mesh& mesh, const 
   }
   settings.width = options.width * side;
   settings.height = options.height * side;
+  if (options.tile) {
+    const ImagePart& tile = *options.tile;
+    settings.part = {tile.x * side, tile.y * side, tile.width * side, tile.height * side};
+  }
   settings.solver = options.solver;
   settings.rank = options.rank;
   const double aspect = static_cast<double>(options.width) / static_cast<double>(options.height);

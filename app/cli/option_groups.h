@@ -10,6 +10,7 @@ inline constexpr const char* kInput = "Images";  // that are read
 inline constexpr const char* kSurface = "Surface";
 inline constexpr const char* kCamera = "Camera";
 inline constexpr const char* kPicture = "Picture";
+inline constexpr const char* kSequence = "Frames and parts";
 inline constexpr const char* kTracing = "How rays are traced";
 inline constexpr const char* kMeasuring = "What is measured";
 inline constexpr const char* kWindow = "Window";
@@ -17,7 +18,7 @@ inline constexpr const char* kOutput = "Output";
 inline constexpr const char* kHelp = "Help";
 
 // In the order in which help shows them.
-inline constexpr std::array kAll{kModel,   kInput,     kSurface, kCamera, kPicture,
+inline constexpr std::array kAll{kModel,   kInput,     kSurface, kCamera, kPicture, kSequence,
                                  kTracing, kMeasuring, kWindow,  kOutput, kHelp};
 
 }  // namespace trisect::option_group

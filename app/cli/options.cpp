@@ -142,6 +142,46 @@ std::string aovs_text(const std::vector<Aov>& aovs) {
   return text;
 }
 
+FrameRange parse_frames(const std::string& option, const std::string& text) {
+  FrameRange range;
+  std::string_view rest = text;
+  bool parsed = take_number(rest, range.first);
+  range.last = range.first;
+  if (parsed && take_character(rest, ':')) parsed = take_number(rest, range.last);
+  if (!parsed || !rest.empty() || range.last < range.first) {
+    throw UsageError(
+        fmt::format("{}: '{}' is not a frame, such as 7, or a first and a last one, such as 0:59.",
+                    option, text));
+  }
+  return range;
+}
+
+ImagePart parse_part(const std::string& option, const std::string& text, uint32_t image_width,
+                     uint32_t image_height) {
+  ImagePart part;
+  std::string_view rest = text;
+  const bool parsed = take_number(rest, part.x) && take_character(rest, ',') &&
+                      take_number(rest, part.y) && take_character(rest, ',') &&
+                      take_number(rest, part.width) && take_character(rest, ',') &&
+                      take_number(rest, part.height) && rest.empty();
+  if (!parsed) {
+    throw UsageError(
+        fmt::format("{}: '{}' is not X,Y,WIDTH,HEIGHT such as 0,0,100,50.", option, text));
+  }
+  const auto fits = [](uint32_t first, uint32_t size, uint32_t whole) {
+    return size >= 1 && size <= whole && first <= whole - size;
+  };
+  if (!fits(part.x, part.width, image_width) || !fits(part.y, part.height, image_height)) {
+    throw UsageError(fmt::format("{}: {} is not in an image of {}x{}.", option, text, image_width,
+                                 image_height));
+  }
+  return part;
+}
+
+std::string part_text(const ImagePart& part) {
+  return fmt::format("{},{},{},{}", part.x, part.y, part.width, part.height);
+}
+
 Backend backend_named(const std::string& option, std::string_view name) {
   for (const Backend backend : kBackends) {
     if (name == backend_name(backend)) return backend;

@@ -11,6 +11,7 @@
 #include "app/crosscheck/tolerance.h"
 #include "app/dispatch/backend.h"
 #include "app/dispatch/trace_settings.h"
+#include "app/frame/image_part.h"
 #include "app/mesh/mesh_builder.h"
 #include "app/picture/image_file.h"
 #include "app/surface/shared.h"
@@ -19,6 +20,14 @@ namespace trisect {
 
 // The most pixels along a side of an image, and the most rays along it with several per pixel.
 constexpr uint32_t kLargestSide = 16384;
+
+// Frames of a sequence, counted from 0, the last one among them.
+struct FrameRange {
+  uint32_t first = 0;
+  uint32_t last = 0;
+
+  bool operator==(const FrameRange&) const = default;
+};
 
 struct RenderOptions {
   std::string model;
@@ -47,13 +56,23 @@ struct RenderOptions {
   GlPath gl_path = GlPath::compute;
   std::string device;
   bool validation = false;
-  std::vector<Aov> aovs;         // of an EXR or PFM; empty: those that each has
-  std::string from;              // a picture whose options come before these; empty: none
+  std::vector<Aov> aovs;              // of an EXR or PFM; empty: those that each has
+  std::optional<ImagePart> tile;      // the part of the image that is rendered; if not given all
+  std::optional<uint32_t> turntable;  // frames in which the camera goes around the target
+  std::string camera_path;            // a file of keyframes; empty: none
+  std::optional<FrameRange> frames;   // those of a sequence that are rendered; if not given all
+  bool resume = false;                // leave out the frames whose files are there
+  std::string from;                   // a picture whose options come before these; empty: none
   std::optional<uint32_t> runs;  // frames to time, after a warm-up; if not given one without it
   uint32_t spp = 1;              // rays per pixel, a square number
   std::string stats;
 
   bool operator==(const RenderOptions&) const = default;
+};
+
+struct StitchOptions {
+  std::vector<std::string> parts;
+  std::string output;
 };
 
 struct AccuracyOptions {
@@ -138,6 +157,17 @@ std::vector<Aov> parse_aovs(const std::string& option, const std::string& text);
 
 // The names as --aov has them.
 std::string aovs_text(const std::vector<Aov>& aovs);
+
+// "0:59" or "7". Throws UsageError, naming the option, for anything else.
+FrameRange parse_frames(const std::string& option, const std::string& text);
+
+// "0,0,100,50": x and y of the top left pixel, width and height. Throws UsageError, naming the
+// option, for anything else and for a part that is not in an image of that size.
+ImagePart parse_part(const std::string& option, const std::string& text, uint32_t image_width,
+                     uint32_t image_height);
+
+// The part as parse_part() reads it.
+std::string part_text(const ImagePart& part);
 
 // The back end of that name. Throws UsageError, naming the option, if there is none.
 Backend backend_named(const std::string& option, std::string_view name);

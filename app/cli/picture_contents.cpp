@@ -33,8 +33,15 @@ ImageContents PictureContents::of(const Frame& frame, const RenderOptions& optio
   contents.aovs = aovs_;
   contents.alpha = options.background == Background::none;
   contents.attributes = attributes_of(options, source);
+  FramePlace place{0, 0, options.width, options.height};
+  if (options.tile) {
+    place.x = options.tile->x;
+    place.y = options.tile->y;
+    contents.place = place;
+  }
   if (has(Aov::position)) {
-    contents.positions = hit_positions(frame, source.settings.camera, samples_across(options.spp));
+    contents.positions =
+        hit_positions(frame, source.settings.camera, samples_across(options.spp), place);
   }
   return contents;
 }

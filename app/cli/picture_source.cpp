@@ -14,10 +14,10 @@ namespace trisect {
 namespace {
 
 // The attributes that are options of `render`, by the options' names.
-constexpr const char* kOptions[] = {"size",   "surface", "alpha",      "shell",   "solver",
-                                    "rank",   "eye",     "target",     "up",      "fov",
-                                    "light",  "color",   "background", "shading", "spp",
-                                    "crease", "weld",    "backend",    "gl_path"};
+constexpr const char* kOptions[] = {"size",   "tile",   "surface", "alpha",      "shell",
+                                    "solver", "rank",   "eye",     "target",     "up",
+                                    "fov",    "light",  "color",   "background", "shading",
+                                    "spp",    "crease", "weld",    "backend",    "gl_path"};
 constexpr const char* kFlags[] = {"shadows", "repair", "evals"};
 
 }  // namespace
@@ -57,6 +57,7 @@ std::vector<ImageAttribute> attributes_of(const RenderOptions& options,
   if (options.color) attributes.push_back({"color", *options.color});
   if (options.mesh.crease_degrees) attributes.push_back({"crease", *options.mesh.crease_degrees});
   if (options.evals) attributes.push_back({"evals", 1});
+  if (options.tile) attributes.push_back({"tile", part_text(*options.tile)});
   if (!options.aovs.empty()) attributes.push_back({"aov", aovs_text(options.aovs)});
   return attributes;
 }

@@ -4,12 +4,20 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
 #include "app/cli/interrupt.h"
 
 namespace trisect {
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<uint64_t>(std::lround(std::max(seconds, 0.0)));
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+  return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+}
 
 ProgressLine::ProgressLine(std::string step, uint64_t total)
     : step_(std::move(step)), total_(total) {}
@@ -28,7 +36,10 @@ bool ProgressLine::show(uint64_t done) {
   constexpr int width = 30;
   const auto filled = static_cast<std::size_t>(part * width);
   const std::string bar = std::string(filled, '#') + std::string(width - filled, '.');
-  std::fputs(fmt::format("\r{} [{}] {:3.0f}%", step_, bar, part * 100.0).c_str(), stderr);
+  const std::string left =
+      part > 0.0 ? fmt::format(", {} left", duration_text(seconds * (1.0 - part) / part)) : "";
+  std::fputs(fmt::format("\r{} [{}] {:3.0f}%{}\033[K", step_, bar, part * 100.0, left).c_str(),
+             stderr);
   std::fflush(stderr);
   shown_ = true;
   return true;

@@ -10,7 +10,11 @@
 
 namespace trisect {
 
-// Shows nothing for a step that takes less than a second, and nothing at all if standard error is
+// "7 s", "3 min 20 s", "2 h 5 min": a time for a person.
+std::string duration_text(double seconds);
+
+// Shows what part of a step is done, and how long the rest will take if it goes on like that. Shows
+// nothing for a step that takes less than a second, and nothing at all if standard error is
 // not a terminal.
 class ProgressLine {
  public:

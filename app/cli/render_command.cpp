@@ -2,16 +2,22 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "app/base/error.h"
+#include "app/base/stopwatch.h"
 #include "app/cli/cache_folder.h"
 #include "app/cli/commands.h"
+#include "app/cli/interrupt.h"
 #include "app/cli/load_scene.h"
 #include "app/cli/output.h"
 #include "app/cli/picture_contents.h"
+#include "app/cli/progress_line.h"
+#include "app/cli/sequence.h"
 #include "app/cli/statistics.h"
 #include "app/dispatch/accel.h"
 #include "app/dispatch/pipeline_store.h"
@@ -37,6 +43,119 @@ void say_what_differs(const std::string& file, const SavedPicture& picture,
   }
 }
 
+// Renders pictures of a loaded scene, one after the other, on one device.
+class Renderer {
+ public:
+  Renderer(const RenderOptions& options, const PictureContents& picture, const LoadedScene& loaded,
+           Accel accel)
+      : options_(options), picture_(picture), loaded_(loaded), accel_(accel) {}
+
+  // Renders a frame into its files, which appear when both are whole. step: for the progress line.
+  // Returns what is to be said of it. Throws Interrupted.
+  RenderStatistics render(const Shot& shot, const TraceSettings& settings,
+                          const std::string& step) {
+    const ImageFormat format = output_format(shot.image);
+    Output image(shot.image);
+    OptionalOutput stats(shot.stats);
+    const TraceParams params = make_params(loaded_.scene, settings);
+    if (!tracer_) tracer_ = tracer_for(params);
+
+    RenderStatistics statistics;
+    ProgressLine line(step, kProgressSteps);
+    if (options_.runs && is_device(options_.backend)) trace(params, line);  // a warm-up
+    for (uint32_t run = 0; run < options_.runs.value_or(1); ++run) {
+      statistics.frames.push_back(trace(params, line));
+    }
+    frame_ = averaged(std::move(frame_), samples_across(options_.spp));
+    statistics.source = {settings, accel_, loaded_.model_sha256, tracer_->device(),
+                         tracer_->driver()};
+    statistics.patches = loaded_.scene.triangles.size();
+    statistics.hits = frame_.hits();
+    statistics.scene_bytes = device_bytes(loaded_.scene);
+    if (options_.evals) statistics.counts = work_of(frame_);
+    statistics.load_ms = loaded_.load_ms;
+    statistics.bake_ms = loaded_.bake_ms;
+    statistics.bvh_ms = loaded_.bvh_ms;
+    statistics.upload_ms = tracer_->upload_ms();
+    if (options_.turntable || !options_.camera_path.empty()) statistics.frame = shot.frame;
+
+    write_image(frame_, format, image.file(), picture_.of(frame_, options_, statistics.source));
+    stats.write(to_json(options_, statistics));
+    // Where the image is, the frame is finished.
+    stats.commit();
+    image.commit();
+    return statistics;
+  }
+
+  // Lets go of the device and prints the messages of the validation layer; returns an exit code.
+  int close() {
+    const std::vector<std::string> messages =
+        tracer_ ? tracer_->close() : std::vector<std::string>();
+    for (const std::string& message : messages) fmt::print(stderr, "validation: {}\n", message);
+    return messages.empty() ? exit_done : exit_internal;
+  }
+
+ private:
+  static constexpr uint64_t kProgressSteps = 1000;
+
+  [[nodiscard]] std::unique_ptr<SceneTracer> tracer_for(const TraceParams& params) const {
+    TraceRequest request;
+    request.backend = options_.backend;
+    request.gl_path = options_.gl_path;
+    request.device = options_.device;
+    request.validation = options_.validation;
+    request.pipeline_folder = cache_folder();
+    return make_tracer(
+        request, loaded_.scene, params.width, params.height,
+        {options_.solver, picture_.needs_aovs(), options_.evals, accel_, options_.shadows});
+  }
+
+  FrameTime trace(const TraceParams& params, ProgressLine& line) {
+    return finished(tracer_->render(params, frame_, [&](double done) {
+      // Vulkan and OpenGL report no progress: `done` stays 0.
+      return done > 0.0 ? line.show(static_cast<uint64_t>(done * kProgressSteps))
+                        : not_interrupted();
+    }));
+  }
+
+  const RenderOptions& options_;
+  const PictureContents& picture_;
+  const LoadedScene& loaded_;
+  Accel accel_;
+  std::unique_ptr<SceneTracer> tracer_;
+  Frame frame_;
+};
+
+// Renders the frames of a path but for those that are finished.
+void render_path(const RenderOptions& options, const Sequence& sequence, const LoadedScene& loaded,
+                 Accel accel, Renderer& renderer) {
+  const Stopwatch watch;
+  std::size_t rendered = 0;
+  std::size_t left = sequence.shots().size();
+  for (const Shot& shot : sequence.shots()) {
+    TraceSettings settings = loaded.settings;
+    settings.camera = sequence.camera(shot, settings.camera);
+    const PictureSource source{settings, accel, loaded.model_sha256, "", ""};
+    stop_if_interrupted();
+    if (options.resume && is_finished(shot, attributes_of(options, source))) {
+      say("{} is there\n", shot.image);
+      --left;
+      continue;
+    }
+    const std::string time_left =
+        rendered == 0 ? ""
+                      : fmt::format(", {} left", duration_text(watch.milliseconds() / 1000.0 *
+                                                               static_cast<double>(left) /
+                                                               static_cast<double>(rendered)));
+    const RenderStatistics statistics =
+        renderer.render(shot, settings, fmt::format("frame {}{}", shot.frame, time_left));
+    say("{}: {} pixels hit, gpu {:.1f} ms, wall {:.1f} ms\n", shot.image, statistics.hits,
+        statistics.frames[0].gpu_ms, statistics.frames[0].wall_ms);
+    ++rendered;
+    --left;
+  }
+}
+
 }  // namespace
 
 int render(RenderOptions options) {
@@ -50,7 +169,10 @@ int render(RenderOptions options) {
     options.aovs = parse_aovs(options.from, repeated->aovs);
   }
   const PictureContents picture(format, options);
-  begin_outputs({options.model, options.from}, {options.output, options.stats});
+  const Sequence sequence(options);
+  for (const Shot& shot : sequence.shots()) {
+    begin_outputs({options.model, options.from, options.camera_path}, {shot.image, shot.stats});
+  }
   LoadedScene loaded = load_scene(options);
   if (takes_its_model && loaded.model_sha256 != repeated->model_sha256) {
     throw InputError(
@@ -60,39 +182,18 @@ int render(RenderOptions options) {
   const Accel accel = accel_for(options, options.backend, loaded.scene);
   if (needs_bvh(accel, options.shadows)) add_bvh(loaded);
 
-  Output image(options.output);
-  OptionalOutput stats(options.stats);
-
-  TraceResult traced = trace_showing_progress(
-      {options.backend, options.gl_path, options.device, options.validation,
-       options.runs.value_or(1), options.runs.has_value(), cache_folder()},
-      loaded.scene, loaded.params,
-      {options.solver, picture.needs_aovs(), options.evals, accel, options.shadows});
-  traced.frame = averaged(std::move(traced.frame), samples_across(options.spp));
-  RenderStatistics statistics;
-  statistics.source = {loaded.settings, accel, loaded.model_sha256, traced.device, traced.driver};
-  statistics.patches = loaded.scene.triangles.size();
-  statistics.hits = traced.frame.hits();
-  statistics.scene_bytes = device_bytes(loaded.scene);
-  if (options.evals) statistics.counts = work_of(traced.frame);
-  statistics.frames = traced.frames;
-  statistics.load_ms = loaded.load_ms;
-  statistics.bake_ms = loaded.bake_ms;
-  statistics.bvh_ms = loaded.bvh_ms;
-  statistics.upload_ms = traced.upload_ms;
-
-  const ImageContents contents = picture.of(traced.frame, options, statistics.source);
-  write_image(traced.frame, format, image.file(), contents);
-  stats.write(to_json(options, statistics));
-  image.commit();
-  stats.commit();
-  say("{}{}\n", to_text(options, statistics), options.output);
-  if (repeated) say_what_differs(options.from, *repeated, contents.attributes);
-
-  for (const std::string& message : traced.messages) {
-    fmt::print(stderr, "validation: {}\n", message);
+  Renderer renderer(options, picture, loaded, accel);
+  if (sequence.is_path()) {
+    render_path(options, sequence, loaded, accel, renderer);
+    return renderer.close();
   }
-  return traced.messages.empty() ? exit_done : exit_internal;
+  const RenderStatistics statistics =
+      renderer.render(sequence.shots().front(), loaded.settings, "rendering");
+  say("{}{}\n", to_text(options, statistics), options.output);
+  if (repeated) {
+    say_what_differs(options.from, *repeated, attributes_of(options, statistics.source));
+  }
+  return renderer.close();
 }
 
 }  // namespace trisect

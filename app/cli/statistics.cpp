@@ -56,6 +56,11 @@ std::string to_json(const RenderOptions& options, const RenderStatistics& statis
   json["patches"] = statistics.patches;
   json["width"] = options.width;
   json["height"] = options.height;
+  if (statistics.frame) json["frame"] = *statistics.frame;
+  if (options.tile) {
+    const ImagePart& tile = *options.tile;
+    json["tile"] = {tile.x, tile.y, tile.width, tile.height};
+  }
   json["surface"] = surface_name(options.surface);
   json["shell"] = shell_name(options.shell);
   json["solver"] = solver_name(options.solver);

@@ -45,6 +45,7 @@ WorkCounts work_of(const Frame& frame);
 struct RenderStatistics {
   PictureSource source;
   std::size_t patches = 0;
+  std::optional<uint32_t> frame;  // of a sequence
   std::size_t hits = 0;
   std::size_t scene_bytes = 0;       // on the device: triangles, subpatch bounds, tree
   std::optional<WorkCounts> counts;  // with --evals

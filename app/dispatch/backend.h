@@ -7,6 +7,11 @@ enum class Backend { vulkan, opengl, cpu, oracle };
 
 // How the OpenGL back end traces: by a compute shader, the source of Vulkan's kernel, or by the
 // fragments of a full-screen quad, as in the thesis.
+// Whether it traces on a device, not in threads of this process.
+constexpr bool is_device(Backend backend) {
+  return backend == Backend::vulkan || backend == Backend::opengl;
+}
+
 enum class GlPath { compute, fragment };
 
 // Names as on the command line and in JSON.

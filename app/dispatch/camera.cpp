@@ -55,7 +55,8 @@ void set_rays(const Camera& camera, const dvec3& origin, double radius, double n
         "--eye, --target and --up do not make a camera: it must look somewhere, and not "
         "along --up.");
   }
-  const double aspect = static_cast<double>(params.width) / static_cast<double>(params.height);
+  const double aspect =
+      static_cast<double>(params.image_width) / static_cast<double>(params.image_height);
   const dvec3 eye = camera.eye - origin;
   // The view matrix has its origin at the eye, so a camera far from the scene's origin loses no
   // precision.
@@ -67,8 +68,8 @@ void set_rays(const Camera& camera, const dvec3& origin, double radius, double n
     return dvec3(p) / p.w;
   };
   const dvec3 corner = near_point(-1.0, 1.0);
-  const dvec3 dx = (near_point(1.0, 1.0) - corner) / static_cast<double>(params.width);
-  const dvec3 dy = (near_point(-1.0, -1.0) - corner) / static_cast<double>(params.height);
+  const dvec3 dx = (near_point(1.0, 1.0) - corner) / static_cast<double>(params.image_width);
+  const dvec3 dy = (near_point(-1.0, -1.0) - corner) / static_cast<double>(params.image_height);
   params.eye = vec4(glm::vec3(eye), static_cast<float>(far / near));
   params.ray_corner = vec4(glm::vec3(corner), 0.0F);
   params.ray_dx = vec4(glm::vec3(dx), 0.0F);

@@ -27,12 +27,12 @@ Camera framing_camera(std::span<const glm::dvec3> vertices, const glm::dvec3& ce
 glm::dvec3 view_direction(const Camera& camera, uint32_t width, uint32_t height, double x,
                           double y);
 
-// Fills in the members of `params` that describe a camera's rays, for an image of params.width x
-// params.height pixels. origin, radius: of the scene, in world units; the rays are relative to the
-// origin. near, far: distances of the two planes from the eye. Unprojects the corners of the clip
-// volume by the double-precision inverse of the view-projection matrix, as the thesis does; through
-// them every pixel's near point is linear in its position. Throws UsageError if the camera's target
-// is its eye, or if it looks along its up vector.
+// Fills in the members of `params` that describe a camera's rays, for an image of
+// params.image_width x params.image_height pixels. origin, radius: of the scene, in world units;
+// the rays are relative to the origin. near, far: distances of the two planes from the eye.
+// Unprojects the corners of the clip volume by the double-precision inverse of the view-projection
+// matrix, as the thesis does; through them every pixel's near point is linear in its position.
+// Throws UsageError if the camera's target is its eye, or if it looks along its up vector.
 void set_rays(const Camera& camera, const glm::dvec3& origin, double radius, double near,
               double far, TraceParams& params);
 

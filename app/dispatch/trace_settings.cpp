@@ -18,8 +18,13 @@ TraceSettings framed_settings(const Mesh& mesh, const BakedScene& scene, uint32_
 
 TraceParams make_params(const BakedScene& scene, const TraceSettings& settings) {
   TraceParams params{};
-  params.width = settings.width;
-  params.height = settings.height;
+  const ImagePart part = settings.part.value_or(ImagePart{0, 0, settings.width, settings.height});
+  params.width = part.width;
+  params.height = part.height;
+  params.first_x = part.x;
+  params.first_y = part.y;
+  params.image_width = settings.width;
+  params.image_height = settings.height;
   params.triangle_count = static_cast<uint32_t>(scene.triangles.size());
   params.subpatch_count = static_cast<uint32_t>(scene.subpatches.size());
   params.rank = settings.rank;

@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "app/bake/bake.h"
 #include "app/dispatch/camera.h"
+#include "app/frame/image_part.h"
 #include "app/mesh/mesh.h"
 #include "app/surface/shared.h"
 
@@ -54,6 +56,7 @@ inline bool is_lit(uint shading) {
 struct TraceSettings {
   uint32_t width = 800;  // of the image in pixels
   uint32_t height = 600;
+  std::optional<ImagePart> part;  // that is traced; none: all of it
   Camera camera;
   uint solver = SOLVER_ROBUST;
   uint32_t rank = 10;  // bisection: rank - 1 halvings

@@ -10,6 +10,7 @@
 #include "app/base/error.h"
 #include "app/base/stopwatch.h"
 #include "app/buffers/buffer_limits.h"
+#include "app/dispatch/accel.h"
 #include "app/dispatch/workgroups.h"
 #include "vk/result.h"
 
@@ -26,6 +27,16 @@ std::optional<TileLists> lists_for(const gpu::Device& device, const BakedScene& 
   return std::optional<TileLists>(std::in_place, device,
                                   static_cast<uint32_t>(scene.subpatches.size()), width, band_rows,
                                   buffer_limit);
+}
+
+// The scene, if it has a tree or needs none. Without a tree its buffer's memory is undefined:
+// kernels would take that for a tree and might never come to an end of it, and a packet would write
+// beyond its stack.
+const BakedScene& with_tree(const BakedScene& scene, const KernelChoice& choice) {
+  if (scene.bvh.empty() && needs_bvh(choice.accel, choice.shadows)) {
+    throw std::logic_error("the scene has no tree, which its rays need: see build_bvh()");
+  }
+  return scene;
 }
 
 // The most workgroups of a part of a band: those for whose rays the queue has places.
@@ -71,7 +82,7 @@ VulkanTracer::VulkanTracer(const gpu::Device& device, const BakedScene& scene, u
       buffer_limit_(std::min<std::size_t>(buffer_limit, device.limits().maxStorageBufferRange)),
       band_rows_(rows_in_a_band(device.report().name, buffer_limit_, width, height, writes_aovs_)),
       tiles_(lists_for(device, scene, choice, width, band_rows_, buffer_limit_)),
-      scene_(device, scene, buffer_limit_, needs_of(device, choice)),
+      scene_(device, with_tree(scene, choice), buffer_limit_, needs_of(device, choice)),
       kernels_(kernels ? std::move(kernels)
                        : std::make_shared<const TracerKernels>(
                              device, plan_kernels(device, scene, choice, buffer_limit_), code)),

@@ -32,7 +32,7 @@ class VulkanTracer {
   // height: the largest frame in pixels. choice: accelerations and shadows that need the BVH need a
   // scene that has one. buffer_limit: the most bytes of a buffer, if less than the device's own
   // limit. code: as spirv_of() takes it. Throws DeviceError if the device cannot hold the scene or
-  // lacks what the choice needs.
+  // lacks what the choice needs, std::logic_error if the scene lacks the BVH.
   VulkanTracer(const gpu::Device& device, const BakedScene& scene, uint32_t width, uint32_t height,
                const KernelChoice& choice, std::size_t buffer_limit = kNoLimit,
                const KernelCode* code = nullptr);

@@ -12,13 +12,13 @@ namespace trisect {
 using glm::dvec3;
 
 OraclePixelRay oracle_pixel_ray(const TraceParams& params, uint32_t x, uint32_t y) {
-  const double px = x + 0.5;
-  const double py = y + 0.5;
+  const double px = params.first_x + x + 0.5;
+  const double py = params.first_y + y + 0.5;
   const glm::dvec4 x_axis(params.frame_x);
   const glm::dvec4 y_axis(params.frame_y);
   const glm::dvec4 z_axis(params.frame_z);
-  const dvec3 aside = dvec3(x_axis) * (x_axis.w * (px - 0.5 * params.width)) +
-                      dvec3(y_axis) * (y_axis.w * (py - 0.5 * params.height));
+  const dvec3 aside = dvec3(x_axis) * (x_axis.w * (px - 0.5 * params.image_width)) +
+                      dvec3(y_axis) * (y_axis.w * (py - 0.5 * params.image_height));
   const auto axis = static_cast<double>(params.anchor.w);
   const dvec3 from_eye = dvec3(z_axis) * axis + aside;
   const double anchor_distance = glm::length(from_eye);

@@ -26,7 +26,9 @@ namespace {
 // One channel after the other, each a component of an array of structures.
 class Channels {
  public:
-  Channels(Imf::Header& header, std::size_t width) : header_(header), width_(width) {}
+  // first: the pixel at which the arrays begin.
+  Channels(Imf::Header& header, std::size_t width, const Imath::V2i& first)
+      : header_(header), width_(width), first_(first) {}
 
   template <typename Pixel>
   void add(const char* name, Imf::PixelType type, const std::vector<Pixel>& pixels,
@@ -34,7 +36,11 @@ class Channels {
     header_.channels().insert(name, Imf::Channel(type));
     // OpenEXR's slices are not const; writing a file only reads them.
     auto* base = reinterpret_cast<char*>(const_cast<Pixel*>(pixels.data())) + offset;
-    slices_.insert(name, Imf::Slice(type, base, sizeof(Pixel), sizeof(Pixel) * width_));
+    // OpenEXR addresses pixels by their coordinates in the image.
+    const auto pixel = static_cast<std::ptrdiff_t>(sizeof(Pixel));
+    const std::ptrdiff_t row = pixel * static_cast<std::ptrdiff_t>(width_);
+    base -= first_.x * pixel + first_.y * row;
+    slices_.insert(name, Imf::Slice(type, base, sizeof(Pixel), static_cast<std::size_t>(row)));
   }
 
   [[nodiscard]] const Imf::FrameBuffer& slices() const { return slices_; }
@@ -42,6 +48,7 @@ class Channels {
  private:
   Imf::Header& header_;
   std::size_t width_;
+  Imath::V2i first_;
   Imf::FrameBuffer slices_;
 };
 
@@ -61,14 +68,18 @@ void insert(const ImageAttribute& attribute, Imf::Header& header) {
 }  // namespace
 
 void write_exr(const Frame& frame, const AtomicFile& file, const ImageContents& contents) {
-  Imf::Header header(static_cast<int>(frame.width), static_cast<int>(frame.height));
+  const FramePlace place = contents.place.value_or(FramePlace{0, 0, frame.width, frame.height});
+  const Imath::V2i first(static_cast<int>(place.x), static_cast<int>(place.y));
+  const Imath::V2i size(static_cast<int>(frame.width), static_cast<int>(frame.height));
+  Imf::Header header(static_cast<int>(place.image_width), static_cast<int>(place.image_height),
+                     Imath::Box2i(first, first + size - Imath::V2i(1)));
   // sRGB's primaries and white, which are Rec. ITU-R BT.709's: the values that this begins with.
   Imf::addChromaticities(header, Imf::Chromaticities());
   for (const ImageAttribute& attribute : contents.attributes) insert(attribute, header);
   const auto has = [&](Aov aov) {
     return std::find(contents.aovs.begin(), contents.aovs.end(), aov) != contents.aovs.end();
   };
-  Channels channels(header, frame.width);
+  Channels channels(header, frame.width, first);
   constexpr std::size_t component = sizeof(float);
   std::vector<vec4> linear;
   if (has(Aov::color)) {

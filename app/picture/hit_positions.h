@@ -7,12 +7,15 @@
 
 #include "app/dispatch/camera.h"
 #include "app/frame/frame.h"
+#include "app/frame/image_part.h"
 
 namespace trisect {
 
 // The place of each pixel's hit in the model's units: the eye plus Z times the direction of the
 // pixel's ray, both in double precision; 0 where nothing was hit. across: rays in a row of a pixel,
-// of which averaged() keeps the middle one's Z. The frame must have AOVs.
-std::vector<glm::vec3> hit_positions(const Frame& frame, const Camera& camera, uint32_t across);
+// of which averaged() keeps the middle one's Z. place: of the frame in the camera's image. The
+// frame must have AOVs.
+std::vector<glm::vec3> hit_positions(const Frame& frame, const Camera& camera, uint32_t across,
+                                     const FramePlace& place);
 
 }  // namespace trisect

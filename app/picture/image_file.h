@@ -3,12 +3,15 @@
 
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "app/base/atomic_file.h"
 #include "app/frame/frame.h"
+#include "app/frame/image_part.h"
 
 namespace trisect {
 
@@ -19,6 +22,9 @@ struct ImageAttribute {
   std::string name;
   std::variant<std::string, int, double, glm::dvec3> value;
 };
+
+// The names and values of attributes, as value_text() has them.
+using ImageTexts = std::vector<std::pair<std::string, std::string>>;
 
 // The outputs of a pixel, as --aov and the channels of EXR files name them. docs/images.md says
 // what each holds.
@@ -39,6 +45,7 @@ struct ImageContents {
   std::vector<Aov> aovs{Aov::color, Aov::depth, Aov::normal, Aov::geometric, Aov::patch, Aov::uv};
   std::vector<glm::vec3> positions;        // of all pixels, for Aov::position
   bool alpha = false;                      // PNG: A, which EXR has always
+  std::optional<FramePlace> place;         // EXR and PNG, of a part of an image
   std::vector<ImageAttribute> attributes;  // EXR and PNG
 };
 
@@ -49,12 +56,14 @@ ImageFormat image_format(const std::filesystem::path& path);
 // The attribute's value as text; numbers are as short as they can be to be read back the same.
 std::string value_text(const ImageAttribute& attribute);
 
-// Writes 8-bit sRGB. With alpha the colours are those that its pixels' parts with a hit have, where
-// the others are black (Background::none). Throws InputError, naming the file.
+// Writes 8-bit sRGB, a part of an image with its offset (oFFs). With alpha the colours are those
+// that its pixels' parts with a hit have, where the others are black (Background::none). Throws
+// InputError, naming the file.
 void write_png(const Frame& frame, const AtomicFile& file, const ImageContents& contents = {});
 
 // Writes channels in single precision, patch and evals as unsigned integers, colours in linear
-// light. Throws InputError, naming the file.
+// light; a part of an image is the data window in the image's display window. Throws InputError,
+// naming the file.
 void write_exr(const Frame& frame, const AtomicFile& file, const ImageContents& contents = {});
 
 // Writes three numbers a pixel, or one for Aov::depth: colours in linear light. Throws InputError,

@@ -24,6 +24,7 @@
 #include "app/base/error.h"
 #include "app/base/srgb.h"
 #include "app/picture/image_file.h"
+#include "app/picture/png_pixels.h"
 
 namespace trisect {
 namespace {
@@ -35,22 +36,15 @@ InputError unreadable(const fs::path& path, const std::string& why) {
 }
 
 Frame read_png(const fs::path& path) {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_file(&image, path.c_str()) == 0) {
-    throw unreadable(path, static_cast<const char*>(image.message));
-  }
-  image.format = PNG_FORMAT_RGBA;
-  std::vector<uint8_t> bytes(PNG_IMAGE_SIZE(image));
-  if (png_image_finish_read(&image, nullptr, bytes.data(), 0, nullptr) == 0) {
-    throw unreadable(path, static_cast<const char*>(image.message));
-  }
+  const PngPixels pixels = read_png_pixels(path);
   Frame frame;
-  frame.width = image.width;
-  frame.height = image.height;
-  frame.colors.reserve(bytes.size() / 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 4) {
-    frame.colors.push_back(vec4(bytes[i], bytes[i + 1], bytes[i + 2], bytes[i + 3]) / 255.0F);
+  frame.width = pixels.width;
+  frame.height = pixels.height;
+  const std::size_t components = pixels.alpha ? 4 : 3;
+  frame.colors.reserve(pixels.bytes.size() / components);
+  for (std::size_t i = 0; i < pixels.bytes.size(); i += components) {
+    const auto at = [&](std::size_t k) { return static_cast<float>(pixels.bytes[i + k]); };
+    frame.colors.push_back(vec4(at(0), at(1), at(2), pixels.alpha ? at(3) : 255.0F) / 255.0F);
   }
   return frame;
 }
@@ -139,12 +133,10 @@ Frame read_exr(const fs::path& path) {
   }
 }
 
-using Attributes = std::vector<std::pair<std::string, std::string>>;
-
-Attributes exr_attributes(const fs::path& path) {
+ImageTexts exr_attributes(const fs::path& path) {
   try {
     const Imf::InputFile file(path.c_str());
-    Attributes found;
+    ImageTexts found;
     const Imf::Header& header = file.header();
     for (auto entry = header.begin(); entry != header.end(); ++entry) {
       const auto add = [&](const decltype(ImageAttribute::value)& value) {
@@ -177,7 +169,7 @@ void read_texts(png_structp png, png_infop info, std::FILE* file, png_textp* tex
 }
 
 // Those before the pixels.
-Attributes png_texts(const fs::path& path) {
+ImageTexts png_texts(const fs::path& path) {
   std::string complaint;
   const auto note_error = [](png_structp png, png_const_charp message) {
     *static_cast<std::string*>(png_get_error_ptr(png)) = message;
@@ -193,7 +185,7 @@ Attributes png_texts(const fs::path& path) {
   png_textp texts = nullptr;
   int count = 0;
   if (complaint.empty()) read_texts(png, info, stream, &texts, &count);
-  Attributes found;
+  ImageTexts found;
   for (int i = 0; i < count; ++i) found.emplace_back(texts[i].key, texts[i].text);
   png_destroy_read_struct(&png, &info, nullptr);
   if (stream != nullptr) std::fclose(stream);
@@ -210,11 +202,26 @@ bool is_png(const fs::path& path) {
 
 }  // namespace
 
+PngPixels read_png_pixels(const fs::path& path) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_file(&image, path.c_str()) == 0) {
+    throw unreadable(path, static_cast<const char*>(image.message));
+  }
+  PngPixels pixels{image.width, image.height, (image.format & PNG_FORMAT_FLAG_ALPHA) != 0, {}};
+  image.format = pixels.alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
+  pixels.bytes.resize(PNG_IMAGE_SIZE(image));
+  if (png_image_finish_read(&image, nullptr, pixels.bytes.data(), 0, nullptr) == 0) {
+    throw unreadable(path, static_cast<const char*>(image.message));
+  }
+  return pixels;
+}
+
 Frame read_image(const fs::path& path) {
   return is_png(path) ? read_png(path) : read_exr(path);
 }
 
-std::vector<std::pair<std::string, std::string>> read_attributes(const fs::path& path) {
+ImageTexts read_attributes(const fs::path& path) {
   return is_png(path) ? png_texts(path) : exr_attributes(path);
 }
 

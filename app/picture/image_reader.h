@@ -2,11 +2,9 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "app/frame/frame.h"
+#include "app/picture/image_file.h"
 
 namespace trisect {
 
@@ -16,8 +14,8 @@ namespace trisect {
 // ending.
 Frame read_image(const std::filesystem::path& path);
 
-// What a PNG or EXR says of its picture in texts or attributes, as value_text() has it: name and
-// value, of EXR those that write_exr() can write. Throws InputError and UsageError as read_image().
-std::vector<std::pair<std::string, std::string>> read_attributes(const std::filesystem::path& path);
+// The texts of a PNG before its pixels, or the attributes of an EXR that write_exr() can write, as
+// value_text() has them. Throws InputError and UsageError as read_image().
+ImageTexts read_attributes(const std::filesystem::path& path);
 
 }  // namespace trisect

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "app/base/error.h"
 #include "app/base/srgb.h"
 #include "app/picture/image_file.h"
+#include "app/picture/png_pixels.h"
 
 namespace trisect {
 namespace {
@@ -46,6 +48,7 @@ struct PngContent {
   uint32_t width;
   uint32_t height;
   bool alpha;
+  std::optional<FramePlace> place;
   std::vector<uint8_t*> rows;
   std::vector<png_text> texts;
 };
@@ -58,6 +61,10 @@ void write_content(png_structp png, png_infop info, std::FILE* file, PngContent&
                content.alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+  if (content.place) {
+    png_set_oFFs(png, info, static_cast<png_int_32>(content.place->x),
+                 static_cast<png_int_32>(content.place->y), PNG_OFFSET_PIXEL);
+  }
   png_set_text(png, info, content.texts.data(), static_cast<int>(content.texts.size()));
   png_set_rows(png, info, content.rows.data());
   png_write_png(png, info, PNG_TRANSFORM_IDENTITY, nullptr);
@@ -77,25 +84,14 @@ png_text text_of(const std::string& name, const std::string& value) {
 
 }  // namespace
 
-void write_png(const Frame& frame, const AtomicFile& file, const ImageContents& contents) {
-  const std::size_t components = contents.alpha ? 4 : 3;
-  std::vector<uint8_t> bytes;
-  bytes.reserve(frame.colors.size() * components);
-  for (const vec4& pixel : frame.colors) {
-    const vec4 color = contents.alpha ? divided_by_alpha(pixel) : pixel;
-    for (std::size_t i = 0; i < components; ++i)
-      bytes.push_back(byte_of(color[static_cast<int>(i)]));
+void write_png_pixels(PngPixels& pixels, const ImageTexts& texts,
+                      const std::optional<FramePlace>& place, const AtomicFile& file) {
+  PngContent content{pixels.width, pixels.height, pixels.alpha, place, {}, {}};
+  const std::size_t row_bytes = std::size_t{pixels.width} * (pixels.alpha ? 4 : 3);
+  for (uint32_t row = 0; row < pixels.height; ++row) {
+    content.rows.push_back(pixels.bytes.data() + row * row_bytes);
   }
-  PngContent content{frame.width, frame.height, contents.alpha, {}, {}};
-  for (uint32_t row = 0; row < frame.height; ++row) {
-    content.rows.push_back(bytes.data() + row * frame.width * components);
-  }
-  std::vector<std::string> values;
-  values.reserve(contents.attributes.size());
-  for (const ImageAttribute& attribute : contents.attributes) {
-    values.push_back(value_text(attribute));
-    content.texts.push_back(text_of(attribute.name, values.back()));
-  }
+  for (const auto& [name, value] : texts) content.texts.push_back(text_of(name, value));
 
   std::string complaint;
   std::FILE* stream = std::fopen(file.temporary().c_str(), "wb");
@@ -114,6 +110,21 @@ void write_png(const Frame& frame, const AtomicFile& file, const ImageContents& 
     throw InputError(
         fmt::format("{}: could not be written: {}.", file.target().string(), complaint));
   }
+}
+
+void write_png(const Frame& frame, const AtomicFile& file, const ImageContents& contents) {
+  const int components = contents.alpha ? 4 : 3;
+  PngPixels pixels{frame.width, frame.height, contents.alpha, {}};
+  pixels.bytes.reserve(frame.colors.size() * static_cast<std::size_t>(components));
+  for (const vec4& pixel : frame.colors) {
+    const vec4 color = contents.alpha ? divided_by_alpha(pixel) : pixel;
+    for (int i = 0; i < components; ++i) pixels.bytes.push_back(byte_of(color[i]));
+  }
+  ImageTexts texts;
+  for (const ImageAttribute& attribute : contents.attributes) {
+    texts.emplace_back(attribute.name, value_text(attribute));
+  }
+  write_png_pixels(pixels, texts, contents.place, file);
 }
 
 }  // namespace trisect

@@ -12,6 +12,7 @@
 
 #include "app/base/error.h"
 #include "app/bench/command_line.h"
+#include "app/cli/camera_path.h"
 #include "app/cli/command_options.h"
 #include "app/cli/commands.h"
 #include "app/cli/option_groups.h"
@@ -82,6 +83,8 @@ Command add_render(CLI::App& app) {
     SceneText scene;
     std::optional<std::string> backend;
     std::optional<std::string> aovs;
+    std::optional<std::string> tile;
+    std::optional<std::string> frames;
   };
   const auto [command, values] =
       add_command<Values>(app, "render", "Render a model to an image file");
@@ -119,6 +122,33 @@ Command add_render(CLI::App& app) {
       ->group(option_group::kOutput)
       ->type_name("A,B,...");
   command
+      .add_option("--tile", values->tile,
+                  "Render this part of the image only, x and y of its top left pixel, width and "
+                  "height; trisect stitch puts parts together")
+      ->group(option_group::kSequence)
+      ->type_name("X,Y,W,H");
+  command
+      .add_option("--turntable", options.turntable,
+                  "N frames, in which the camera goes once around the target; {frame} in the "
+                  "names of outputs becomes the frame's number")
+      ->group(option_group::kSequence)
+      ->check(number_from_to(1, static_cast<int>(kMostFrames)))
+      ->type_name("N");
+  command
+      .add_option("--camera-path", options.camera_path,
+                  "Frames along keyframes of a JSON file, see docs/sequences.md")
+      ->group(option_group::kSequence)
+      ->check(not_empty())
+      ->check(suggest_files({".json"}))
+      ->type_name("FILE");
+  command
+      .add_option("--frames", values->frames,
+                  "Render frames A to B of those, or frame A alone, counted from 0")
+      ->group(option_group::kSequence)
+      ->type_name("A:B");
+  command.add_flag("--resume", options.resume, "Leave out the frames whose files are there")
+      ->group(option_group::kSequence);
+  command
       .add_flag("--validation", options.validation,
                 "Run under the Vulkan validation layer, fail on any message")
       ->group(option_group::kTracing);
@@ -139,13 +169,35 @@ Command add_render(CLI::App& app) {
       ->check(suggest_files({".json"}))
       ->type_name("FILE.json");
   return {&command, [values = values] {
-            parse_scene(values->scene, values->options);
-            if (values->backend) {
-              values->options.backend = backend_named("--backend", *values->backend);
+            RenderOptions& parsed = values->options;
+            parse_scene(values->scene, parsed);
+            if (values->backend) parsed.backend = backend_named("--backend", *values->backend);
+            if (values->aovs) parsed.aovs = parse_aovs("--aov", *values->aovs);
+            if (values->frames) parsed.frames = parse_frames("--frames", *values->frames);
+            if (values->tile) {
+              parsed.tile = parse_part("--tile", *values->tile, parsed.width, parsed.height);
+              if (parsed.gl_path == GlPath::fragment) {
+                throw UsageError("--tile: it needs --gl-path compute.");
+              }
             }
-            if (values->aovs) values->options.aovs = parse_aovs("--aov", *values->aovs);
-            return render(values->options);
+            return render(parsed);
           }};
+}
+
+Command add_stitch(CLI::App& app) {
+  const auto [command, options] = add_command<StitchOptions>(
+      app, "stitch", "Put the parts of an image together that render --tile has made");
+  command.add_option("PART", options->parts, "Images, all PNG or all EXR")
+      ->group(option_group::kInput)
+      ->required()
+      ->check(suggest_images())
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_option("-o,--output", options->output, "Image to write, of the same format")
+      ->group(option_group::kOutput)
+      ->required()
+      ->check(suggest_images())
+      ->type_name("FILE");
+  return {&command, [options = options] { return stitch_parts(*options); }};
 }
 
 Command add_accuracy(CLI::App& app) {
@@ -377,11 +429,17 @@ CommandLine::CommandLine()
   // Commands inherit both. They are in the order in which help lists them.
   app_.formatter(std::make_shared<HelpFormat>());
   app_.set_help_flag("-h,--help", "Print this help and exit")->group(option_group::kHelp);
-  commands_ = {add_render(app_),     add_other<view::CommandLine>(app_, "view"),
-               add_info(app_),       add_export(app_),
-               add_devices(app_),    add_compare(app_),
-               add_crosscheck(app_), add_accuracy(app_),
-               add_hardcases(app_),  add_other<bench::CommandLine>(app_, "bench")};
+  commands_ = {add_render(app_),
+               add_other<view::CommandLine>(app_, "view"),
+               add_stitch(app_),
+               add_info(app_),
+               add_export(app_),
+               add_devices(app_),
+               add_compare(app_),
+               add_crosscheck(app_),
+               add_accuracy(app_),
+               add_hardcases(app_),
+               add_other<bench::CommandLine>(app_, "bench")};
   for (CLI::App* command : app_.get_subcommands({})) {
     if (command->get_name() != "view") add_quiet(*command);
   }

@@ -43,6 +43,11 @@ const std::map<std::string, CommandTexts>& texts() {
           "trisect view --spp 4 --shadows"},
          {"Save a picture after ten frames and end",
           "trisect view teapot.obj --frames 10 --screenshot view.png"}}}},
+      {"trisect stitch",
+       {{"The parts may come from several machines. The image is that of one render, bit for bit."},
+        {{"Two halves", "trisect stitch left.png right.png -o whole.png"},
+         {"An image with all its outputs",
+          "trisect stitch part-0.exr part-1.exr part-2.exr -o whole.exr"}}}},
       {"trisect info",
        {{"Tells the format, meshes, bounds, how far normals lean, edges, memory of the curved "
          "surface, patches that fold over, and what of it deserves a look. Needs no device."},

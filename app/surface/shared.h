@@ -25,7 +25,7 @@ static_assert(sizeof(SubpatchBounds) == 96);
 static_assert(offsetof(SubpatchBounds, edge) == 48);
 static_assert(offsetof(SubpatchBounds, cone) == 64);
 static_assert(offsetof(SubpatchBounds, triangle) == 80);
-static_assert(sizeof(TraceParams) == 240);
+static_assert(sizeof(TraceParams) == 256);
 static_assert(offsetof(TraceParams, grid) == 144);
 static_assert(offsetof(TraceParams, width) == 192);
 static_assert(offsetof(TraceParams, alpha) == 208);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <thread>
+#include <utility>
 
 #include "app/base/stopwatch.h"
 #include "app/dispatch/cpu_tracer.h"
@@ -15,107 +16,165 @@
 namespace trisect {
 namespace {
 
-// The runs of a tracer on a device. False: stopped.
-template <typename Tracer>
-bool run_on_device(const TraceRequest& request, const TraceParams& params, Tracer& tracer,
-                   const TraceProgress& progress, TraceResult& result) {
-  result.upload_ms = tracer.upload_ms();
-  const KeepGoing keep_going = [&] { return !progress || progress(0.0); };
-  if (request.warm_up && !tracer.render(params, result.frame, keep_going)) return false;
-  for (uint32_t run = 0; run < request.runs; ++run) {
-    const std::optional<FrameTime> time = tracer.render(params, result.frame, keep_going);
-    if (!time) return false;
-    result.frames.push_back(*time);
+KeepGoing keep_going_of(const TraceProgress& progress) {
+  return [&progress] { return !progress || progress(0.0); };
+}
+
+class VulkanScene final : public SceneTracer {
+ public:
+  VulkanScene(const TraceRequest& request, const BakedScene& scene, uint32_t width, uint32_t height,
+              const KernelChoice& choice)
+      : instance_(request.validation), on_device_(std::in_place, instance_, request) {
+    device_ = on_device_->device.report().name;
+    driver_ = on_device_->device.report().driver;
+    on_device_->tracer.emplace(on_device_->device, scene, width, height, choice);
+    upload_ms_ = on_device_->tracer->upload_ms();
   }
-  return true;
-}
 
-bool trace_on_vulkan(const TraceRequest& request, const BakedScene& scene,
-                     const TraceParams& params, const KernelChoice& choice,
-                     const TraceProgress& progress, TraceResult& result) {
-  const gpu::Instance instance(request.validation);
-  bool all = false;
-  {
-    const gpu::Device device(instance, request.device);
-    const PipelineStore store(device, request.pipeline_folder);
-    result.device = device.report().name;
-    result.driver = device.report().driver;
-    VulkanTracer tracer(device, scene, params.width, params.height, choice);
-    all = run_on_device(request, params, tracer, progress, result);
+  std::optional<FrameTime> render(const TraceParams& params, Frame& frame,
+                                  const TraceProgress& progress) override {
+    return on_device_->tracer->render(params, frame, keep_going_of(progress));
   }
-  // Those of the clean-up among them.
-  result.messages = instance.log().messages();
-  return all;
-}
 
-bool trace_on_opengl(const TraceRequest& request, const BakedScene& scene,
-                     const TraceParams& params, const KernelChoice& choice,
-                     const TraceProgress& progress, TraceResult& result) {
-  const opengl::Context context;
-  result.device = context.device();
-  result.driver = context.driver();
-  opengl::Tracer tracer(scene, params.width, params.height, choice, request.gl_path);
-  return run_on_device(request, params, tracer, progress, result);
-}
+  std::vector<std::string> close() override {
+    on_device_.reset();
+    return instance_.log().messages();
+  }
 
-// frame_once(progress) renders one frame of so many rows of work; false: stopped.
-template <typename FrameOnce>
-bool trace_on_host(const TraceRequest& request, uint32_t rows_of_work, const std::string& driver,
-                   const TraceProgress& progress, TraceResult& result, FrameOnce&& frame_once) {
-  result.device = fmt::format("CPU, {} threads", std::thread::hardware_concurrency());
-  result.driver = driver;
-  const auto tell = [&](uint32_t rows) {
-    return !progress || progress(static_cast<double>(rows) / rows_of_work);
+ private:
+  // What the instance outlives.
+  struct OnDevice {
+    OnDevice(const gpu::Instance& instance, const TraceRequest& request)
+        : device(instance, request.device), store(device, request.pipeline_folder) {}
+    gpu::Device device;
+    PipelineStore store;
+    std::optional<VulkanTracer> tracer;
   };
-  for (uint32_t run = 0; run < request.runs; ++run) {
+
+  gpu::Instance instance_;
+  std::optional<OnDevice> on_device_;
+};
+
+class OpenGlScene final : public SceneTracer {
+ public:
+  OpenGlScene(const TraceRequest& request, const BakedScene& scene, uint32_t width, uint32_t height,
+              const KernelChoice& choice)
+      : tracer_(scene, width, height, choice, request.gl_path) {
+    device_ = context_.device();
+    driver_ = context_.driver();
+    upload_ms_ = tracer_.upload_ms();
+  }
+
+  std::optional<FrameTime> render(const TraceParams& params, Frame& frame,
+                                  const TraceProgress& progress) override {
+    return tracer_.render(params, frame, keep_going_of(progress));
+  }
+
+ private:
+  opengl::Context context_;
+  opengl::Tracer tracer_;
+};
+
+// Of what runs in threads of this process.
+class HostScene : public SceneTracer {
+ public:
+  HostScene(const BakedScene& scene, const KernelChoice& choice, const char* driver)
+      : scene_(scene), choice_(choice) {
+    device_ = fmt::format("CPU, {} threads", std::thread::hardware_concurrency());
+    driver_ = driver;
+  }
+
+  std::optional<FrameTime> render(const TraceParams& params, Frame& frame,
+                                  const TraceProgress& progress) override {
     const Stopwatch watch;
-    if (!frame_once(tell)) return false;
+    const uint32_t rows_of_work = rows_of(params);
+    const auto tell = [&](uint32_t rows) {
+      return !progress || progress(static_cast<double>(rows) / rows_of_work);
+    };
+    if (!render_rows(params, frame, tell)) return std::nullopt;
     FrameTime time;
     time.wall_ms = watch.milliseconds();
-    result.frames.push_back(time);
+    return time;
   }
-  return true;
-}
 
-bool render_with_oracle(const BakedScene& scene, const TraceParams& params, bool shadows,
-                        const Progress& progress, Frame& frame) {
-  const std::optional<OracleFrame> answers = trace_with_oracle(scene, params, progress);
-  if (!answers) return false;
-  frame = frame_of(*answers, scene, params);
-  return !shadows || cast_oracle_shadows(*answers, scene, params, frame, [&](uint32_t rows) {
-    return progress(params.height + rows);
-  });
-}
+ protected:
+  [[nodiscard]] virtual uint32_t rows_of(const TraceParams& params) const { return params.height; }
+  // False: stopped.
+  virtual bool render_rows(const TraceParams& params, Frame& frame, const Progress& progress) = 0;
+
+  const BakedScene& scene_;
+  KernelChoice choice_;
+};
+
+class CpuScene final : public HostScene {
+ public:
+  CpuScene(const BakedScene& scene, const KernelChoice& choice)
+      : HostScene(scene, choice, "the kernel as C++, single precision") {}
+
+ private:
+  bool render_rows(const TraceParams& params, Frame& frame, const Progress& progress) override {
+    return trace_on_cpu(scene_, params, choice_, frame, progress);
+  }
+};
+
+class OracleScene final : public HostScene {
+ public:
+  OracleScene(const BakedScene& scene, const KernelChoice& choice)
+      : HostScene(scene, choice, "the oracle, double precision") {}
+
+ private:
+  [[nodiscard]] uint32_t rows_of(const TraceParams& params) const override {
+    return params.height * (choice_.shadows ? 2 : 1);
+  }
+
+  bool render_rows(const TraceParams& params, Frame& frame, const Progress& progress) override {
+    const std::optional<OracleFrame> answers = trace_with_oracle(scene_, params, progress);
+    if (!answers) return false;
+    frame = frame_of(*answers, scene_, params);
+    return !choice_.shadows ||
+           cast_oracle_shadows(*answers, scene_, params, frame,
+                               [&](uint32_t rows) { return progress(params.height + rows); });
+  }
+};
 
 }  // namespace
+
+std::unique_ptr<SceneTracer> make_tracer(const TraceRequest& request, const BakedScene& scene,
+                                         uint32_t width, uint32_t height,
+                                         const KernelChoice& choice) {
+  switch (request.backend) {
+    case Backend::vulkan:
+      return std::make_unique<VulkanScene>(request, scene, width, height, choice);
+    case Backend::opengl:
+      return std::make_unique<OpenGlScene>(request, scene, width, height, choice);
+    case Backend::cpu:
+      return std::make_unique<CpuScene>(scene, choice);
+    case Backend::oracle:
+      break;
+  }
+  return std::make_unique<OracleScene>(scene, choice);
+}
 
 std::optional<TraceResult> trace_scene(const TraceRequest& request, const BakedScene& scene,
                                        const TraceParams& params, const KernelChoice& choice,
                                        const TraceProgress& progress) {
+  const std::unique_ptr<SceneTracer> tracer =
+      make_tracer(request, scene, params.width, params.height, choice);
   TraceResult result;
-  bool all = false;
-  switch (request.backend) {
-    case Backend::vulkan:
-      all = trace_on_vulkan(request, scene, params, choice, progress, result);
-      break;
-    case Backend::opengl:
-      all = trace_on_opengl(request, scene, params, choice, progress, result);
-      break;
-    case Backend::cpu:
-      all = trace_on_host(request, params.height, "the kernel as C++, single precision", progress,
-                          result, [&](const Progress& rows) {
-                            return trace_on_cpu(scene, params, choice, result.frame, rows);
-                          });
-      break;
-    case Backend::oracle:
-      all = trace_on_host(
-          request, params.height * (choice.shadows ? 2 : 1), "the oracle, double precision",
-          progress, result, [&](const Progress& rows) {
-            return render_with_oracle(scene, params, choice.shadows, rows, result.frame);
-          });
-      break;
+  result.device = tracer->device();
+  result.driver = tracer->driver();
+  result.upload_ms = tracer->upload_ms();
+  if (is_device(request.backend) && request.warm_up &&
+      !tracer->render(params, result.frame, progress)) {
+    return std::nullopt;
   }
-  return all ? std::optional(std::move(result)) : std::nullopt;
+  for (uint32_t run = 0; run < request.runs; ++run) {
+    const std::optional<FrameTime> time = tracer->render(params, result.frame, progress);
+    if (!time) return std::nullopt;
+    result.frames.push_back(*time);
+  }
+  result.messages = tracer->close();
+  return result;
 }
 
 }  // namespace trisect

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,9 +40,45 @@ struct TraceResult {
 // devices, which do not say); returns whether to go on. Empty: nobody is told.
 using TraceProgress = std::function<bool(double done)>;
 
+// A scene on a back end, for one frame after the other. For one thread.
+class SceneTracer {
+ public:
+  SceneTracer() = default;
+  virtual ~SceneTracer() = default;
+  SceneTracer(const SceneTracer&) = delete;
+  SceneTracer& operator=(const SceneTracer&) = delete;
+  SceneTracer(SceneTracer&&) = delete;
+  SceneTracer& operator=(SceneTracer&&) = delete;
+
+  // params: of the scene that make_tracer() got, no wider and higher than it said; for OpenGL just
+  // as wide and high. Nothing if progress said stop. Throws DeviceError.
+  virtual std::optional<FrameTime> render(const TraceParams& params, Frame& frame,
+                                          const TraceProgress& progress) = 0;
+
+  // Lets go of the device. Returns the messages of the validation layer. No frame can follow.
+  virtual std::vector<std::string> close() { return {}; }
+
+  [[nodiscard]] const std::string& device() const { return device_; }
+  [[nodiscard]] const std::string& driver() const { return driver_; }
+  [[nodiscard]] double upload_ms() const { return upload_ms_; }
+
+ protected:
+  std::string device_;
+  std::string driver_;
+  double upload_ms_ = 0.0;
+};
+
+// The scene must outlive the tracer. runs and warm_up of the request are not used. Throws
+// DeviceError as trace_scene() does. OpenGL's context is current in this thread as long as the
+// tracer is there.
+std::unique_ptr<SceneTracer> make_tracer(const TraceRequest& request, const BakedScene& scene,
+                                         uint32_t width, uint32_t height,
+                                         const KernelChoice& choice);
+
 // Nothing if progress said stop. Throws DeviceError if there is no device or it cannot hold the
-// scene. Several threads may call it at a time, but for Backend::opengl, whose context is current
-// in one thread only while it runs.
+// scene, and std::logic_error on Vulkan if the choice needs a BVH (needs_bvh()) and the scene has
+// none: build_bvh() makes it. Several threads may call it at a time, but for Backend::opengl, whose
+// context is current in one thread only while it runs.
 std::optional<TraceResult> trace_scene(const TraceRequest& request, const BakedScene& scene,
                                        const TraceParams& params, const KernelChoice& choice,
                                        const TraceProgress& progress = {});

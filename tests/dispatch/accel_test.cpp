@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <vector>
 
 #include "app/bake/bvh.h"
@@ -248,6 +249,20 @@ TEST_F(Acceleration, UploadsTheTreeOnlyWhereItIsNeeded) {
   EXPECT_EQ(bytes(with, Accel::tiles, true), tiles_bytes - sizeof(BvhNode) + tree_bytes);
   EXPECT_EQ(bytes(with, Accel::bvh, false),
             bytes(without, Accel::list, false) - sizeof(BvhNode) + tree_bytes);
+}
+
+// What is in the memory of a tree that is not there would be taken for one.
+TEST_F(Acceleration, WithoutTheTreeThatItNeedsIsRefused) {
+  const BakedScene scene =
+      bake_with_subpatches(test::load_asset("cube"), {SURFACE_PHONG, 0.65, SHELL_NORMAL});
+  const auto make = [&](Accel accel, bool shadows) {
+    const KernelChoice choice{.solver = SOLVER_ROBUST, .accel = accel, .shadows = shadows};
+    VulkanTracer(test::validated_device(), scene, 8, 8, choice);
+  };
+  EXPECT_THROW(make(Accel::tiles, true), std::logic_error);
+  EXPECT_THROW(make(Accel::bvh, false), std::logic_error);
+  EXPECT_NO_THROW(make(Accel::tiles, false));
+  EXPECT_NO_THROW(make(Accel::list, true));
 }
 
 // With a limit that is less than the model's buffers take, they cannot be bound.

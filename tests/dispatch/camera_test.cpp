@@ -23,8 +23,8 @@ dvec3 direction(const TraceParams& params, double x, double y) {
 TraceParams rays(const Camera& camera, uint32_t width, uint32_t height,
                  const dvec3& origin = dvec3(0.0)) {
   TraceParams params{};
-  params.width = width;
-  params.height = height;
+  params.image_width = width;
+  params.image_height = height;
   set_rays(camera, origin, 1.0, 0.01, 100.0, params);
   return params;
 }

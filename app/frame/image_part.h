@@ -1,0 +1,26 @@
+// A part of an image.
+#pragma once
+
+#include <cstdint>
+
+namespace trisect {
+
+// A rectangle of an image's pixels: x, y: of its top left one, row 0 being the top.
+struct ImagePart {
+  uint32_t x = 0;
+  uint32_t y = 0;
+  uint32_t width = 0;
+  uint32_t height = 0;
+
+  bool operator==(const ImagePart&) const = default;
+};
+
+// Where a frame is in the image that it is, or is a part of.
+struct FramePlace {
+  uint32_t x = 0;  // of the frame's top left pixel
+  uint32_t y = 0;
+  uint32_t image_width = 0;
+  uint32_t image_height = 0;
+};
+
+}  // namespace trisect

@@ -1,0 +1,30 @@
+// The bytes of PNG files.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "app/base/atomic_file.h"
+#include "app/frame/image_part.h"
+#include "app/picture/image_file.h"
+
+namespace trisect {
+
+// Eight bits a component, sRGB, in rows from top to bottom.
+struct PngPixels {
+  uint32_t width = 0;
+  uint32_t height = 0;
+  bool alpha = false;  // four components a pixel, else three
+  std::vector<uint8_t> bytes;
+};
+
+// texts: names and values. place: of a part of an image. Throws InputError, naming the file.
+void write_png_pixels(PngPixels& pixels, const ImageTexts& texts,
+                      const std::optional<FramePlace>& place, const AtomicFile& file);
+
+// Throws InputError, naming the file, if it cannot be read.
+PngPixels read_png_pixels(const std::filesystem::path& path);
+
+}  // namespace trisect

@@ -1,0 +1,258 @@
+#include "app/picture/stitch.h"
+
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <iterator>
+#include <optional>
+
+#include "app/base/error.h"
+#include "app/picture/image_reader.h"
+#include "app/picture/png_pixels.h"
+
+namespace trisect {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What attributes of two parts, or two frames, may differ.
+constexpr const char* kMayDiffer[] = {"program", "commit", "device", "driver", "accel", "tile"};
+
+std::string text_named(const ImageTexts& texts, const std::string& name) {
+  for (const auto& [key, value] : texts) {
+    if (key == name) return value;
+  }
+  return {};
+}
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& why) {
+  throw InputError(fmt::format("{}: {}.", path.string(), why));
+}
+
+// Which pixels of an image have been written.
+class Coverage {
+ public:
+  Coverage(uint32_t width, uint32_t height)
+      : width_(width), covered_(std::size_t{width} * height, false) {}
+
+  void add(const ImagePart& part) {
+    for (uint32_t y = part.y; y < part.y + part.height; ++y) {
+      const auto row = covered_.begin() + static_cast<std::ptrdiff_t>(std::size_t{y} * width_);
+      std::fill_n(row + part.x, part.width, true);
+    }
+  }
+
+  void expect_all(const fs::path& target) const {
+    const auto missing = std::find(covered_.begin(), covered_.end(), false);
+    if (missing == covered_.end()) return;
+    const auto index = static_cast<std::size_t>(missing - covered_.begin());
+    refuse(target, fmt::format("no part has the pixel ({}, {})", index % width_, index / width_));
+  }
+
+ private:
+  uint32_t width_;
+  std::vector<bool> covered_;
+};
+
+// Refuses a part that says of its image what the first one does not.
+void expect_same_image(const fs::path& path, const ImageTexts& texts, const fs::path& first,
+                       const ImageTexts& first_texts) {
+  const std::string name = difference_between(texts, first_texts);
+  if (!name.empty()) {
+    refuse(path, fmt::format("is a part of another image than {}, with another {}", first.string(),
+                             name));
+  }
+}
+
+ImageTexts without_tile(ImageTexts texts) {
+  texts.erase(std::remove_if(texts.begin(), texts.end(),
+                             [](const auto& text) { return text.first == "tile"; }),
+              texts.end());
+  return texts;
+}
+
+// Where a PNG's pixels belong. Throws InputError if it does not say that.
+FramePlace place_of(const fs::path& path, const ImageTexts& texts, const PngPixels& pixels) {
+  FramePlace place;
+  uint32_t width = 0;
+  uint32_t height = 0;
+  const bool is_said = std::sscanf(text_named(texts, "size").c_str(), "%ux%u", &place.image_width,
+                                   &place.image_height) == 2 &&
+                       std::sscanf(text_named(texts, "tile").c_str(), "%u,%u,%u,%u", &place.x,
+                                   &place.y, &width, &height) == 4;
+  const auto fits = [](uint32_t first, uint32_t size, uint32_t whole) {
+    return size <= whole && first <= whole - size;
+  };
+  if (!is_said || width != pixels.width || height != pixels.height ||
+      !fits(place.x, width, place.image_width) || !fits(place.y, height, place.image_height)) {
+    refuse(path, "does not say which part of which image it is");
+  }
+  return place;
+}
+
+void stitch_png(const std::vector<fs::path>& parts, const AtomicFile& file) {
+  PngPixels whole;
+  ImageTexts first_texts;
+  std::optional<Coverage> coverage;
+  for (const fs::path& path : parts) {
+    const ImageTexts texts = read_attributes(path);
+    const PngPixels pixels = read_png_pixels(path);
+    const FramePlace place = place_of(path, texts, pixels);
+    const std::size_t components = pixels.alpha ? 4 : 3;
+    if (!coverage) {
+      first_texts = texts;
+      whole = {place.image_width, place.image_height, pixels.alpha, {}};
+      whole.bytes.resize(std::size_t{whole.width} * whole.height * components);
+      coverage.emplace(whole.width, whole.height);
+    }
+    expect_same_image(path, texts, parts.front(), first_texts);
+    if (pixels.alpha != whole.alpha) {
+      refuse(path, fmt::format("has not the components of {}", parts.front().string()));
+    }
+    const std::size_t row_bytes = std::size_t{pixels.width} * components;
+    for (std::size_t y = 0; y < pixels.height; ++y) {
+      const std::size_t to = ((place.y + y) * whole.width + place.x) * components;
+      std::copy_n(pixels.bytes.begin() + static_cast<std::ptrdiff_t>(y * row_bytes), row_bytes,
+                  whole.bytes.begin() + static_cast<std::ptrdiff_t>(to));
+    }
+    coverage->add({place.x, place.y, pixels.width, pixels.height});
+  }
+  coverage->expect_all(file.target());
+  write_png_pixels(whole, without_tile(first_texts), std::nullopt, file);
+}
+
+// All channels of an image, as wide and high as its display window.
+class ExrChannels {
+ public:
+  explicit ExrChannels(const Imf::Header& header) : window_(header.displayWindow()) {
+    const std::size_t width = size(window_.min.x, window_.max.x);
+    const std::size_t height = size(window_.min.y, window_.max.y);
+    for (auto at = header.channels().begin(); at != header.channels().end(); ++at) {
+      const Imf::PixelType type = at.channel().type;
+      const std::size_t pixel = type == Imf::HALF ? 2 : 4;
+      std::vector<char>& bytes = bytes_.emplace_back(width * height * pixel);
+      const std::size_t row = pixel * width;
+      char* base = bytes.data() - window_.min.x * static_cast<std::ptrdiff_t>(pixel) -
+                   window_.min.y * static_cast<std::ptrdiff_t>(row);
+      slices_.insert(at.name(), Imf::Slice(type, base, pixel, row));
+    }
+  }
+
+  void read(Imf::InputFile& file) const {
+    file.setFrameBuffer(slices_);
+    file.readPixels(file.header().dataWindow().min.y, file.header().dataWindow().max.y);
+  }
+
+  [[nodiscard]] const Imf::FrameBuffer& slices() const { return slices_; }
+
+  static uint32_t size(int first, int last) { return static_cast<uint32_t>(last - first + 1); }
+
+ private:
+  Imath::Box2i window_;
+  std::vector<std::vector<char>> bytes_;
+  Imf::FrameBuffer slices_;
+};
+
+// Of a data window in the display window that begins at `first`. Throws InputError if it is not
+// in there.
+ImagePart part_of(const fs::path& path, const Imf::Header& header) {
+  const Imath::Box2i& all = header.displayWindow();
+  const Imath::Box2i& part = header.dataWindow();
+  if (!all.intersects(part.min) || !all.intersects(part.max)) {
+    refuse(path, "has pixels outside of its image");
+  }
+  return {static_cast<uint32_t>(part.min.x - all.min.x),
+          static_cast<uint32_t>(part.min.y - all.min.y), ExrChannels::size(part.min.x, part.max.x),
+          ExrChannels::size(part.min.y, part.max.y)};
+}
+
+void stitch_exr(const std::vector<fs::path>& parts, const AtomicFile& file) {
+  std::optional<Imf::Header> header;
+  std::optional<ExrChannels> channels;
+  std::optional<Coverage> coverage;
+  ImageTexts first_texts;
+  for (const fs::path& path : parts) {
+    const ImageTexts texts = read_attributes(path);
+    Imf::InputFile part(path.c_str());
+    const ImagePart place = part_of(path, part.header());
+    if (!header) {
+      header = part.header();
+      first_texts = texts;
+      const Imath::Box2i& all = header->displayWindow();
+      coverage.emplace(ExrChannels::size(all.min.x, all.max.x),
+                       ExrChannels::size(all.min.y, all.max.y));
+      channels.emplace(*header);
+    }
+    expect_same_image(path, texts, parts.front(), first_texts);
+    if (part.header().displayWindow() != header->displayWindow() ||
+        !(part.header().channels() == header->channels())) {
+      refuse(path, fmt::format("has not the size or channels of {}", parts.front().string()));
+    }
+    channels->read(part);
+    coverage->add(place);
+  }
+  coverage->expect_all(file.target());
+  header->dataWindow() = header->displayWindow();
+  header->erase("tile");
+  Imf::OutputFile out(file.temporary().c_str(), *header);
+  out.setFrameBuffer(channels->slices());
+  out.writePixels(header->dataWindow().max.y - header->dataWindow().min.y + 1);
+}
+
+}  // namespace
+
+std::string difference_between(const ImageTexts& a, const ImageTexts& b) {
+  for (const auto& [one, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+    for (const auto& [name, value] : *one) {
+      const bool counts =
+          std::find(std::begin(kMayDiffer), std::end(kMayDiffer), name) == std::end(kMayDiffer);
+      if (counts && text_named(*other, name) != value) return name;
+    }
+  }
+  return {};
+}
+
+bool is_whole_image(const fs::path& path) {
+  try {
+    if (image_format(path) == ImageFormat::png) {
+      read_png_pixels(path);
+    } else {
+      Imf::InputFile file(path.c_str());
+      Imf::Header whole = file.header();
+      whole.displayWindow() = whole.dataWindow();
+      ExrChannels(whole).read(file);
+    }
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+void stitch(const std::vector<fs::path>& parts, ImageFormat format, const AtomicFile& file) {
+  for (const fs::path& path : parts) {
+    if (image_format(path) != format) {
+      throw UsageError(
+          fmt::format("{}: is not of the format of {}.", path.string(), file.target().string()));
+    }
+  }
+  if (format == ImageFormat::pfm) throw UsageError("a PFM does not say which part it is.");
+  try {
+    format == ImageFormat::png ? stitch_png(parts, file) : stitch_exr(parts, file);
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    refuse(file.target(), fmt::format("could not be made: {}", error.what()));
+  }
+}
+
+}  // namespace trisect
