@@ -4,7 +4,9 @@
 
 #include "app/bench/commands.h"
 #include "app/cli/command_options.h"
+#include "app/cli/option_groups.h"
 #include "app/cli/options.h"
+#include "app/cli/suggestions.h"
 
 namespace trisect::bench {
 namespace {
@@ -18,8 +20,10 @@ CLI::App& subcommand(CLI::App& bench, const std::string& name, const std::string
 
 void add_report_folder(CLI::App& command, std::string& output) {
   command.add_option("-o,--output", output, "Folder to write the report into")
+      ->group(option_group::kOutput)
       ->required()
       ->check(not_empty())
+      ->check(suggest_folders())
       ->type_name("DIR");
 }
 
@@ -27,8 +31,7 @@ void add_report_folder(CLI::App& command, std::string& output) {
 
 CommandLine::CommandLine(CLI::App& app)
     : bench_(*app.add_subcommand(
-          "bench",
-          "Measure: speed, pareto, ablation or stability; see trisect bench speed --help")) {
+          "bench", "Measure speed and errors of this program's ways to draw and of others")) {
   bench_.require_subcommand(1);
   add_speed();
   add_pareto();
@@ -42,6 +45,7 @@ void CommandLine::add_frames(CLI::App& command, const MeasuredModels& defaults) 
   command
       .add_option("--runs", text_.runs,
                   fmt::format("Frames to time after a warm-up, default {}", defaults.runs))
+      ->group(option_group::kMeasuring)
       ->check(number_from_to(1, 1000))
       ->type_name("N");
 }
@@ -56,6 +60,7 @@ void CommandLine::add_speed() {
       .add_option("--error", speed_.error,
                   "How far Embree's flat triangles may be off the surface, over the model's "
                   "radius, default 1e-6")
+      ->group(option_group::kMeasuring)
       ->check(number_from_to(1e-9, 1.0))
       ->type_name("E");
   add_device(command, speed_.device);
@@ -69,16 +74,23 @@ void CommandLine::add_pareto() {
   add_models(command, pareto_.models);
   add_report_folder(command, pareto_.output);
   add_frames(command, pareto_);
-  command.add_flag("--quick", quick_,
-                   "A few contenders, 160x120 pixels, two frames: to see that it works");
+  command
+      .add_flag("--quick", quick_,
+                "A few contenders, 160x120 pixels, two frames: to see that it works")
+      ->group(option_group::kMeasuring);
   command
       .add_option("--hardcases", pareto_.hardcases,
                   "Show the table of this file, which trisect hardcases --json wrote")
+      ->group(option_group::kMeasuring)
       ->check(not_empty())
+      ->check(suggest_files({".json"}))
       ->type_name("FILE");
-  command.add_flag("--no-plots{false}", pareto_.plots, "Draw no plots: gnuplot is not needed");
-  command.add_flag("--no-opengl{false}", pareto_.opengl,
-                   "Leave out OpenGL's tessellation shaders: no OpenGL is needed");
+  command.add_flag("--no-plots{false}", pareto_.plots, "Draw no plots: gnuplot is not needed")
+      ->group(option_group::kOutput);
+  command
+      .add_flag("--no-opengl{false}", pareto_.opengl,
+                "Leave out OpenGL's tessellation shaders: no OpenGL is needed")
+      ->group(option_group::kMeasuring);
   add_device(command, pareto_.device);
 }
 
@@ -100,6 +112,7 @@ void CommandLine::add_stability() {
       "report with a plot");
   add_report_folder(command, stability_.output);
   command.add_option("--rays", stability_.rays, "Rays for every value, default 100")
+      ->group(option_group::kMeasuring)
       ->check(number_from_to(1, 1000000))
       ->type_name("N");
 }

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "app/cli/option_groups.h"
+#include "app/cli/suggestions.h"
+
 namespace trisect {
 
 CLI::Validator not_empty() {
@@ -10,12 +13,14 @@ CLI::Validator not_empty() {
 }
 
 CLI::Validator one_of(const std::vector<std::string>& names) {
-  return CLI::Validator(
-      [names](const std::string& text) -> std::string {
-        if (std::find(names.begin(), names.end(), text) != names.end()) return {};
-        return fmt::format("'{}' is not one of: {}", text, fmt::join(names, ", "));
-      },
-      "");
+  return suggesting(CLI::Validator(
+                        [names](const std::string& text) -> std::string {
+                          if (std::find(names.begin(), names.end(), text) != names.end()) return {};
+                          return fmt::format("'{}' is not one of: {}", text,
+                                             fmt::join(names, ", "));
+                        },
+                        ""),
+                    names);
 }
 
 uint surface_of(const std::string& name) {
@@ -28,16 +33,23 @@ uint shell_of(const std::string& name) {
 
 void add_models(CLI::App& command, std::vector<std::string>& models) {
   command.add_option("MODEL", models, "OBJ, glTF, PLY, STL or FBX files")
+      ->group(option_group::kModel)
       ->required()
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->check(suggest_models());
 }
 
 void add_size(CLI::App& command, std::optional<std::string>& size, const std::string& standard) {
-  command.add_option("--size", size, "Image size in pixels, default " + standard)->type_name("WxH");
+  command.add_option("--size", size, "Image size in pixels, default " + standard)
+      ->group(option_group::kPicture)
+      ->type_name("WxH");
 }
 
 void add_surfaces(CLI::App& command, std::optional<std::string>& surface) {
-  command.add_option("--surface", surface, "flat, phong or sphere, default phong and sphere")
+  command
+      .add_option("--surface", surface,
+                  "How triangles are curved: flat, phong or sphere, default phong and sphere")
+      ->group(option_group::kSurface)
       ->check(one_of({"flat", "phong", "sphere"}))
       ->type_name("NAME");
 }
@@ -46,6 +58,7 @@ void add_alpha(CLI::App& command, double& alpha) {
   command
       .add_option("--alpha", alpha,
                   "phong: from 0 (flat) to 1 (full projection) and beyond, default 0.65")
+      ->group(option_group::kSurface)
       ->check(number_from_to(-1000.0, 1000.0))
       ->type_name("A");
 }
@@ -54,13 +67,16 @@ void add_device(CLI::App& command, std::string& device) {
   command
       .add_option("--device", device,
                   "Vulkan device: its number in `trisect devices` or a part of its name")
+      ->group(option_group::kTracing)
       ->check(not_empty())
       ->type_name("D");
 }
 
 void add_table_json(CLI::App& command, std::string& json) {
   command.add_option("--json", json, "Write the table as JSON")
+      ->group(option_group::kOutput)
       ->check(not_empty())
+      ->check(suggest_files({".json"}))
       ->type_name("FILE");
 }
 

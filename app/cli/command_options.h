@@ -32,7 +32,7 @@ CLI::Validator number_from_to(Number low, Number high) {
 
 CLI::Validator not_empty();
 
-// Accepts these names only.
+// Accepts these names only, and has shells offer them.
 CLI::Validator one_of(const std::vector<std::string>& names);
 
 // The constants for the names of --surface and --shell, which one_of() has checked.

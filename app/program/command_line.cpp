@@ -15,9 +15,12 @@
 #include "app/cli/camera_path.h"
 #include "app/cli/command_options.h"
 #include "app/cli/commands.h"
+#include "app/cli/option_groups.h"
 #include "app/cli/output.h"
 #include "app/cli/picture_source.h"
 #include "app/cli/scene_options.h"
+#include "app/cli/suggestions.h"
+#include "app/program/help_format.h"
 #include "app/view/command_line.h"
 
 namespace trisect {
@@ -40,21 +43,37 @@ Added<Values> add_command(CLI::App& app, const std::string& name, const std::str
   return {*command, std::make_shared<Values>()};
 }
 
-// Adds --quiet to a command and its own.
+// Adds --quiet to a command or, if it has some, to its own. (A group of options is one without a
+// name.)
 void add_quiet(CLI::App& command) {
-  const std::vector<CLI::App*> own = command.get_subcommands({});
+  const std::vector<CLI::App*> own =
+      command.get_subcommands([](const CLI::App* sub) { return !sub->get_name().empty(); });
   for (CLI::App* sub : own) add_quiet(*sub);
   if (own.empty()) {
-    command.add_flag_callback("-q,--quiet", be_quiet, "Say nothing but what is wrong");
+    command.add_flag_callback("-q,--quiet", be_quiet, "Say nothing but what is wrong")
+        ->group(option_group::kOutput);
   }
 }
 
+// CLI11 gives every command a --help of its own, in a group of its own.
+void group_help(CLI::App& command) {
+  command.get_help_ptr()->group(option_group::kHelp);
+  for (CLI::App* sub : command.get_subcommands({})) group_help(*sub);
+}
+
 void add_model(CLI::App& command, std::string& model) {
-  command.add_option("MODEL", model, "OBJ, glTF, PLY, STL or FBX file")->required();
+  command.add_option("MODEL", model, "OBJ, glTF, PLY, STL or FBX file")
+      ->group(option_group::kModel)
+      ->required()
+      ->check(suggest_models());
 }
 
 void add_json(CLI::App& command, std::string& json, const std::string& what) {
-  command.add_option("--json", json, what)->check(not_empty())->type_name("FILE");
+  command.add_option("--json", json, what)
+      ->group(option_group::kOutput)
+      ->check(not_empty())
+      ->check(suggest_files({".json"}))
+      ->type_name("FILE");
 }
 
 Command add_render(CLI::App& app) {
@@ -76,60 +95,78 @@ Command add_render(CLI::App& app) {
       .add_option("--from", options.from,
                   "Make this picture again, a .png or .exr of this program: its model and options "
                   "are taken where none are given")
+      ->group(option_group::kModel)
       ->check(not_empty())
+      ->check(suggest_images())
       ->type_name("FILE");
   command
       .add_option("-o,--output", options.output,
                   "Image to write: .png (8-bit sRGB), .exr (linear float, with AOVs) or .pfm "
                   "(float, one of "
                   "them); - writes PNG to standard output")
+      ->group(option_group::kOutput)
       ->required()
+      ->check(suggest_files({".png", ".exr", ".pfm"}))
       ->type_name("FILE");
   command
       .add_option("--backend", values->backend,
                   "Who traces: vulkan, opengl, cpu (the same kernel as C++) or oracle (double "
                   "precision, slow), default vulkan")
+      ->group(option_group::kTracing)
       ->check(one_of({"vulkan", "opengl", "cpu", "oracle"}))
       ->type_name("NAME");
   command
       .add_option("--aov", values->aovs,
                   "What an EXR holds of each pixel, of color, Z, N, G, patch, uv, P (position) and "
                   "evals, default color,Z,N,G,patch,uv; a PFM holds one of them, default color")
+      ->group(option_group::kOutput)
       ->type_name("A,B,...");
   command
       .add_option("--tile", values->tile,
                   "Render this part of the image only, x and y of its top left pixel, width and "
                   "height; trisect stitch puts parts together")
+      ->group(option_group::kSequence)
       ->type_name("X,Y,W,H");
   command
       .add_option("--turntable", options.turntable,
                   "N frames, in which the camera goes once around the target; {frame} in the "
                   "names of outputs becomes the frame's number")
+      ->group(option_group::kSequence)
       ->check(number_from_to(1, static_cast<int>(kMostFrames)))
       ->type_name("N");
   command
       .add_option("--camera-path", options.camera_path,
                   "Frames along keyframes of a JSON file, see docs/sequences.md")
+      ->group(option_group::kSequence)
       ->check(not_empty())
+      ->check(suggest_files({".json"}))
       ->type_name("FILE");
   command
       .add_option("--frames", values->frames,
                   "Render frames A to B of those, or frame A alone, counted from 0")
+      ->group(option_group::kSequence)
       ->type_name("A:B");
-  command.add_flag("--resume", options.resume, "Leave out the frames whose files are there");
-  command.add_flag("--validation", options.validation,
-                   "Run under the Vulkan validation layer, fail on any message");
+  command.add_flag("--resume", options.resume, "Leave out the frames whose files are there")
+      ->group(option_group::kSequence);
+  command
+      .add_flag("--validation", options.validation,
+                "Run under the Vulkan validation layer, fail on any message")
+      ->group(option_group::kTracing);
   add_spp(command, options.spp);
   command
       .add_option("--runs", options.runs,
                   "Frames to time after a warm-up; without it one, which is not preceded by any")
+      ->group(option_group::kMeasuring)
       ->check(number_from_to(1, 1000000))
       ->type_name("N");
-  command.add_flag(
-      "--evals", options.evals,
-      "Count evaluations of the surface: EXR channel evals, evals_total in the figures");
+  command
+      .add_flag("--evals", options.evals,
+                "Count evaluations of the surface: EXR channel evals, evals_total in the figures")
+      ->group(option_group::kMeasuring);
   command.add_option("--stats", options.stats, "Write the figures as JSON")
+      ->group(option_group::kOutput)
       ->check(not_empty())
+      ->check(suggest_files({".json"}))
       ->type_name("FILE.json");
   return {&command, [values = values] {
             RenderOptions& parsed = values->options;
@@ -151,10 +188,14 @@ Command add_stitch(CLI::App& app) {
   const auto [command, options] = add_command<StitchOptions>(
       app, "stitch", "Put the parts of an image together that render --tile has made");
   command.add_option("PART", options->parts, "Images, all PNG or all EXR")
+      ->group(option_group::kInput)
       ->required()
+      ->check(suggest_images())
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command.add_option("-o,--output", options->output, "Image to write, of the same format")
+      ->group(option_group::kOutput)
       ->required()
+      ->check(suggest_images())
       ->type_name("FILE");
   return {&command, [options = options] { return stitch_parts(*options); }};
 }
@@ -171,7 +212,10 @@ Command add_accuracy(CLI::App& app) {
   add_models(command, values->options.models);
   add_size(command, values->size, "800x600");
   add_surfaces(command, values->surface);
-  command.add_option("--shell", values->shell, "normal or height, default both")
+  command
+      .add_option("--shell", values->shell,
+                  "Along what triangles are displaced: normal or height, default both")
+      ->group(option_group::kSurface)
       ->check(one_of({"normal", "height"}))
       ->type_name("NAME");
   add_device(command, values->options.device);
@@ -194,6 +238,7 @@ Command add_hardcases(CLI::App& app) {
       add_command<Values>(app, "hardcases", "Measure the solvers on a catalogue of hard cases");
   add_table_json(command, values->options.json);
   command.add_option("--backend", values->backend, "Who traces: vulkan or cpu, default vulkan")
+      ->group(option_group::kTracing)
       ->check(one_of({"vulkan", "cpu"}))
       ->type_name("NAME");
   add_device(command, values->options.device);
@@ -210,7 +255,9 @@ void add_comparison_files(CLI::App& command, std::string& json, std::string& dif
       .add_option("--diff", diff,
                   "Write a picture (.png or .exr): both images, their difference amplified, and "
                   "where hits, triangles or Z differ")
+      ->group(option_group::kOutput)
       ->check(not_empty())
+      ->check(suggest_images())
       ->type_name("FILE");
 }
 
@@ -226,6 +273,7 @@ Command add_crosscheck(CLI::App& app) {
   command
       .add_option("--backends", values->backends,
                   "Two or more of vulkan, opengl, cpu, oracle, default vulkan,opengl")
+      ->group(option_group::kTracing)
       ->type_name("A,B,...");
   add_comparison_files(command, values->options.json, values->options.diff);
   return {&command, [values = values] {
@@ -245,13 +293,20 @@ Command add_compare(CLI::App& app) {
   };
   const auto [command, values] =
       add_command<Values>(app, "compare", "Compare two images, PNG or EXR, of the same size");
-  command.add_option("A", values->options.a, "Image")->required();
-  command.add_option("B", values->options.b, "Image")->required();
+  command.add_option("A", values->options.a, "An image")
+      ->group(option_group::kInput)
+      ->required()
+      ->check(suggest_images());
+  command.add_option("B", values->options.b, "Another, of the same size")
+      ->group(option_group::kInput)
+      ->required()
+      ->check(suggest_images());
   command
       .add_option("--threshold", values->thresholds,
                   "The most of it that is well: hit_mismatches and patch_mismatches (parts of the "
                   "pixels, default 0), color_max (8-bit steps, default 1), color_rmse, z_differs "
                   "(part of the hits, both default anything)")
+      ->group(option_group::kMeasuring)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("NAME=X");
   add_comparison_files(command, values->options.json, values->options.diff);
@@ -273,7 +328,10 @@ Command add_info(CLI::App& app) {
       "Say what a model is like, what its curved surfaces will be like, and what to look at");
   add_model(command, values->options.model);
   add_mesh_options(command, values->options.mesh);
-  command.add_option("--surface", values->surface, "Of which: phong or sphere, default phong")
+  command
+      .add_option("--surface", values->surface,
+                  "How triangles are curved: phong or sphere, default phong")
+      ->group(option_group::kSurface)
       ->check(one_of({"phong", "sphere"}))
       ->type_name("NAME");
   add_json(command, values->options.json, "Write it as JSON");
@@ -293,21 +351,27 @@ Command add_export(CLI::App& app) {
   ExportOptions& options = values->options;
   add_model(command, options.model);
   command.add_option("-o,--output", options.output, "File to write: .obj, .ply, .stl or .glb")
+      ->group(option_group::kOutput)
+      ->check(suggest_files({".obj", ".ply", ".stl", ".glb"}))
       ->required()
       ->type_name("FILE");
   add_mesh_options(command, options.mesh);
   command
-      .add_option("--surface", values->surface, "Of which: flat, phong or sphere, default phong")
+      .add_option("--surface", values->surface,
+                  "How triangles are curved: flat, phong or sphere, default phong")
+      ->group(option_group::kSurface)
       ->check(one_of({"flat", "phong", "sphere"}))
       ->type_name("NAME");
   add_alpha(command, options.alpha);
   CLI::Option_group* how = command.add_option_group("how fine");
   how->add_option("--subdivide", options.subdivide, "N x N flat triangles for each of the model's")
+      ->group(option_group::kSurface)
       ->check(number_from_to(1, 4000))
       ->type_name("N");
   how->add_option("--error", options.error,
                   "As many as it takes to be off the surface by no more than this, in the model's "
                   "units")
+      ->group(option_group::kSurface)
       ->check(number_from_to(1e-300, 1e9))
       ->type_name("EPS");
   how->require_option(1);
@@ -321,9 +385,11 @@ Command add_export(CLI::App& app) {
 Command add_devices(CLI::App& app) {
   const auto [command, options] = add_command<DevicesOptions>(
       app, "devices", "List the Vulkan devices, and what those that cannot be used lack");
-  command.add_flag("--floats", options->floats,
-                   "Measure what the arithmetic of usable devices does: errors, contraction, "
-                   "denormals, NaN");
+  command
+      .add_flag("--floats", options->floats,
+                "Measure what the arithmetic of usable devices does: errors, contraction, "
+                "denormals, NaN")
+      ->group(option_group::kMeasuring);
   add_device(command, options->device);
   add_table_json(command, options->json);
   return {&command, [options = options] { return list_devices(*options); }};
@@ -354,30 +420,33 @@ Command add_other(CLI::App& app, const std::string& name) {
 }  // namespace
 
 CommandLine::CommandLine()
-    : app_("Ray-traces triangle models as smooth curved surfaces, in a Vulkan compute shader.",
+    : app_("Ray-trace triangle models as smooth curved surfaces, in a Vulkan compute shader",
            "trisect") {
-  app_.set_version_flag("--version", std::string("trisect ") + TRISECT_VERSION);
+  app_.set_version_flag("--version", std::string("trisect ") + TRISECT_VERSION,
+                        "Print the version and exit")
+      ->group(option_group::kHelp);
   app_.require_subcommand(1);
+  // Commands inherit both. They are in the order in which help lists them.
+  app_.formatter(std::make_shared<HelpFormat>());
+  app_.set_help_flag("-h,--help", "Print this help and exit")->group(option_group::kHelp);
   commands_ = {add_render(app_),
-               add_stitch(app_),
-               add_accuracy(app_),
-               add_other<bench::CommandLine>(app_, "bench"),
                add_other<view::CommandLine>(app_, "view"),
-               add_hardcases(app_),
-               add_crosscheck(app_),
-               add_compare(app_),
+               add_stitch(app_),
                add_info(app_),
                add_export(app_),
-               add_devices(app_)};
+               add_devices(app_),
+               add_compare(app_),
+               add_crosscheck(app_),
+               add_accuracy(app_),
+               add_hardcases(app_),
+               add_other<bench::CommandLine>(app_, "bench")};
   for (CLI::App* command : app_.get_subcommands({})) {
     if (command->get_name() != "view") add_quiet(*command);
   }
-  app_.footer(
-      "Exit codes: 0 done, 1 farther apart than promised, 2 usage, 3 bad input, 4 no usable "
-      "device, 5 device lost, 6 out of memory, 70 internal error, 130 interrupted.");
+  group_help(app_);
 }
 
-int CommandLine::run(int argc, char** argv) {
+bool CommandLine::parse(int argc, const char* const* argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   const auto is_named = [&](const CLI::App* command) { return command->get_name() == words[0]; };
   if (!words.empty() && !words[0].starts_with('-') && app_.get_subcommands(is_named).empty()) {
@@ -388,9 +457,17 @@ int CommandLine::run(int argc, char** argv) {
   try {
     app_.parse(std::move(words));
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app_.exit(error);
+    if (error.get_exit_code() == 0) {
+      app_.exit(error);
+      return false;
+    }
     throw UsageError(std::string(error.what()) + " (see trisect --help)");
   }
+  return true;
+}
+
+int CommandLine::run(int argc, const char* const* argv) {
+  if (!parse(argc, argv)) return exit_done;
   for (const Command& command : commands_) {
     if (command.parsed->parsed()) return command.run();
   }

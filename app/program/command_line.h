@@ -21,7 +21,10 @@ class CommandLine {
 
   // Parses the arguments and runs the command that they name. Prints what --help and --version ask
   // for. Returns an exit code; throws UsageError for arguments that cannot be.
-  int run(int argc, char** argv);
+  int run(int argc, const char* const* argv);
+
+  // Does of it but the running. Returns whether there is a command to run.
+  bool parse(int argc, const char* const* argv);
 
  private:
   CLI::App app_;

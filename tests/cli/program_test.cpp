@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -437,8 +438,10 @@ TEST_F(Program, TellsItsVersionAndHelps) {
   for (const char* word : {"render", "crosscheck", "compare", "devices", "--version"}) {
     EXPECT_NE(help.out.find(word), std::string::npos) << word;
   }
-  const test::ProgramRun render_help = run_trisect({"render", "--help"});
+  const test::ProgramRun render_help = run_trisect({"render", "--help"}, {"COLUMNS=60"});
   EXPECT_EQ(render_help.exit_code, 0);
+  std::istringstream lines(render_help.out);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 60U) << line;
   for (const char* word :
        {"MODEL", "--output", "--size", "--surface", "--alpha", "--solver", "--rank", "--eye",
         "--target", "--up", "--fov", "--device", "--validation", "--runs", "--stats"}) {
