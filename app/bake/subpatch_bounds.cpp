@@ -417,6 +417,30 @@ void bound_subpatch(const PatchData& patch, const ConeLimits& limits,
   subpatches[index].skip = static_cast<uint32_t>(subpatches.size() - index - 1);
 }
 
+// bake_subpatches(), or nothing if progress says stop.
+std::optional<std::vector<SubpatchBounds>> subpatches_of(const BakedScene& scene,
+                                                         const Progress& progress) {
+  // Small chunks: a patch with nonsmooth subpatches takes some hundredths of a second.
+  constexpr std::size_t size = 16;
+  const ConeLimits& limits = scene.triangles.size() <= kFewPatches ? kLimitsOfFew : kLimitsOfMany;
+  std::vector<std::vector<SubpatchBounds>> chunks(scene.triangles.size() / size + 1);
+  const auto bound = [&](std::size_t first, std::size_t end) {
+    std::vector<SubpatchBounds>& subpatches = chunks[first / size];
+    subpatches.reserve(end - first);
+    for (std::size_t t = first; t < end; ++t) {
+      if (!has_surface(scene.triangles[t])) continue;
+      bound_subpatch(patch_data(scene.choice, scene.triangles[t]), limits, kWholeTriangle, 0,
+                     static_cast<uint32_t>(t), subpatches);
+    }
+  };
+  if (!parallel_chunks(scene.triangles.size(), size, bound, progress)) return std::nullopt;
+  std::vector<SubpatchBounds> subpatches;
+  for (const std::vector<SubpatchBounds>& chunk : chunks) {
+    subpatches.insert(subpatches.end(), chunk.begin(), chunk.end());
+  }
+  return subpatches;
+}
+
 }  // namespace
 
 bool has_divided_patches(const BakedScene& scene) {
@@ -432,29 +456,19 @@ bool has_nonsmooth(const BakedScene& scene) {
 }
 
 std::vector<SubpatchBounds> bake_subpatches(const BakedScene& scene) {
-  // Small chunks: a patch with nonsmooth subpatches takes some hundredths of a second.
-  constexpr std::size_t size = 16;
-  const ConeLimits& limits = scene.triangles.size() <= kFewPatches ? kLimitsOfFew : kLimitsOfMany;
-  std::vector<std::vector<SubpatchBounds>> chunks(scene.triangles.size() / size + 1);
-  parallel_chunks(scene.triangles.size(), size, [&](std::size_t first, std::size_t end) {
-    std::vector<SubpatchBounds>& subpatches = chunks[first / size];
-    subpatches.reserve(end - first);
-    for (std::size_t t = first; t < end; ++t) {
-      if (!has_surface(scene.triangles[t])) continue;
-      bound_subpatch(patch_data(scene.choice, scene.triangles[t]), limits, kWholeTriangle, 0,
-                     static_cast<uint32_t>(t), subpatches);
-    }
-  });
-  std::vector<SubpatchBounds> subpatches;
-  for (const std::vector<SubpatchBounds>& chunk : chunks) {
-    subpatches.insert(subpatches.end(), chunk.begin(), chunk.end());
-  }
-  return subpatches;
+  return *subpatches_of(scene, {});
 }
 
 BakedScene bake_with_subpatches(const Mesh& mesh, const SurfaceChoice& choice) {
+  return *bake_with_subpatches(mesh, choice, {});
+}
+
+std::optional<BakedScene> bake_with_subpatches(const Mesh& mesh, const SurfaceChoice& choice,
+                                               const Progress& progress) {
   BakedScene scene = bake(mesh, choice);
-  scene.subpatches = bake_subpatches(scene);
+  auto subpatches = subpatches_of(scene, progress);
+  if (!subpatches) return std::nullopt;
+  scene.subpatches = *std::move(subpatches);
   return scene;
 }
 

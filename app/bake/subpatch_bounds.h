@@ -2,9 +2,11 @@
 // or meets it once at most.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "app/bake/bake.h"
+#include "app/base/keep_going.h"
 #include "app/surface/shared.h"
 
 namespace trisect {
@@ -19,6 +21,11 @@ std::vector<SubpatchBounds> bake_subpatches(const BakedScene& scene);
 
 // bake() and bake_subpatches().
 BakedScene bake_with_subpatches(const Mesh& mesh, const SurfaceChoice& choice);
+
+// The same, telling `progress` now and then of how many of the mesh's triangles the subpatches are
+// made; nothing if it says stop.
+std::optional<BakedScene> bake_with_subpatches(const Mesh& mesh, const SurfaceChoice& choice,
+                                               const Progress& progress);
 
 // Whether some patch is divided into subpatches.
 bool has_divided_patches(const BakedScene& scene);

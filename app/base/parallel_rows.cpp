@@ -70,14 +70,19 @@ bool parallel_rows(uint32_t height, const std::function<void(uint32_t)>& row,
   return parallel_rows(height, whole_row, progress);
 }
 
-void parallel_chunks(std::size_t count, std::size_t size,
-                     const std::function<void(std::size_t, std::size_t)>& chunk) {
+bool parallel_chunks(std::size_t count, std::size_t size,
+                     const std::function<void(std::size_t, std::size_t)>& chunk,
+                     const Progress& progress) {
+  const auto tell = [&](std::size_t items) {
+    return !progress || progress(static_cast<uint32_t>(std::min(items, count)));
+  };
   if (count <= size) {
     if (count > 0) chunk(0, count);
-    return;
+    return tell(count);
   }
   const auto row = [&](uint32_t k) { chunk(k * size, std::min((k + 1) * size, count)); };
-  parallel_rows(static_cast<uint32_t>((count + size - 1) / size), row, {});
+  return parallel_rows(static_cast<uint32_t>((count + size - 1) / size), row,
+                       [&](uint32_t chunks) { return tell(chunks * size); });
 }
 
 }  // namespace trisect

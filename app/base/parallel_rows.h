@@ -26,9 +26,11 @@ bool parallel_rows(uint32_t height, const std::function<void(uint32_t, const Sto
 
 // Calls chunk(first, end) for consecutive ranges of `size` items of `count`, the last one shorter,
 // on as many threads as there are cores: `chunk` must be safe to call from several threads at once.
-// The first exception that it throws ends the work and is rethrown here.
-void parallel_chunks(std::size_t count, std::size_t size,
-                     const std::function<void(std::size_t, std::size_t)>& chunk);
+// The first exception that it throws ends the work and is rethrown here. Calls progress(items done)
+// as parallel_rows() does, and returns what that does.
+bool parallel_chunks(std::size_t count, std::size_t size,
+                     const std::function<void(std::size_t, std::size_t)>& chunk,
+                     const Progress& progress = {});
 
 // A size of chunks for items that take some microseconds each.
 constexpr std::size_t kChunk = 1024;

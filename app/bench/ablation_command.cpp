@@ -12,6 +12,7 @@
 #include "app/bench/report_files.h"
 #include "app/cli/cache_folder.h"
 #include "app/cli/json_text.h"
+#include "app/cli/load_scene.h"
 #include "app/cli/output.h"
 #include "app/cli/provenance.h"
 #include "app/dispatch/pipeline_store.h"
@@ -26,7 +27,7 @@ using bench::Ablation;
 int bench_ablation(const AblationOptions& options) {
   bench::expect_gnuplot();
   // Reads all models first, so that a bad one is reported before anything is measured.
-  for (const std::string& model : options.models) build_mesh(read_model(model), model);
+  expect_readable(options.models);
   const gpu::Instance instance(false);
   const gpu::Device device(instance, options.device);
   const PipelineStore store(device, cache_folder());

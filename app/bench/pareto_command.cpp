@@ -15,6 +15,7 @@
 #include "app/bench/stress_table.h"
 #include "app/cli/cache_folder.h"
 #include "app/cli/json_text.h"
+#include "app/cli/load_scene.h"
 #include "app/cli/output.h"
 #include "app/cli/provenance.h"
 #include "app/crosscheck/comparison_picture.h"
@@ -91,7 +92,7 @@ std::vector<Block> report_of(const std::vector<bench::Scene>& scenes,
 int bench_pareto(const ParetoOptions& options) {
   if (options.plots) bench::expect_gnuplot();
   // Reads all models first, so that a bad one is reported before anything is measured.
-  for (const std::string& model : options.models) build_mesh(read_model(model), model);
+  expect_readable(options.models);
   std::optional<bench::StressTable> hard;
   if (!options.hardcases.empty()) hard = bench::read_stress_table(options.hardcases);
   const gpu::Instance instance(false);

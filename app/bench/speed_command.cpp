@@ -18,6 +18,7 @@
 #include "app/cli/cache_folder.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/json_text.h"
+#include "app/cli/load_scene.h"
 #include "app/cli/output.h"
 #include "app/cli/progress_line.h"
 #include "app/cli/statistics.h"
@@ -199,6 +200,7 @@ int bench_speed(const BenchOptions& options) {
   const gpu::Device device(instance, options.device);
   const PipelineStore store(device, cache_folder());
   OptionalOutput file(options.json);
+  expect_readable(options.models);
   say("device {}, driver {}, {}x{}, medians of {} runs\n\n{}", device.report().name,
       device.report().driver, options.width, options.height, options.runs,
       bench::speed_columns().markdown_header());

@@ -13,6 +13,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/json_text.h"
+#include "app/cli/load_scene.h"
 #include "app/cli/output.h"
 #include "app/cli/progress_line.h"
 #include "app/dispatch/cpu_tracer.h"
@@ -82,7 +83,7 @@ std::vector<AccuracyRow> measure_model(const gpu::Device& device, const Accuracy
   std::vector<AccuracyRow> rows;
   for (const uint surface : options.surfaces) {
     for (const uint shell : options.shells) {
-      const BakedScene scene = bake_with_subpatches(mesh, {surface, options.alpha, shell});
+      const BakedScene scene = bake_showing_progress(mesh, {surface, options.alpha, shell});
       TraceSettings settings = framed_settings(mesh, scene, options.width, options.height);
       ProgressLine progress(fmt::format("oracle, {}", model), options.height);
       const OracleFrame truth = finished(trace_with_oracle(
@@ -106,6 +107,7 @@ int accuracy(const AccuracyOptions& options) {
   const gpu::Device device(instance, options.device);
   const PipelineStore store(device, cache_folder());
   OptionalOutput file(options.json);
+  expect_readable(options.models);
   say("device {}, driver {}, {}x{}\n\n{}", device.report().name, device.report().driver,
       options.width, options.height, accuracy_table_header());
   nlohmann::ordered_json json;

@@ -44,11 +44,18 @@ AccelRequest accel_request(const RenderOptions& options, bool subgroups) {
 Accel accel_for(const RenderOptions& options, Backend backend, const BakedScene& scene) {
   const std::size_t subpatches = scene.subpatches.size();
   const Accel accel = chosen_accel(accel_request(options, true), backend, subpatches);
-  if (options.accel || accel != Accel::tiles) return accel;
+  if (options.accel || accel != Accel::tiles) {
+    detail("accel {}, {}\n", accel_name(accel),
+           options.accel ? "as asked for"
+                         : "as the model's size, the image's and the back end have it");
+    return accel;
+  }
   const gpu::Instance instance(false);
   const std::size_t index = gpu::choose_device(instance.reports(), options.device);
-  const bool subgroups = instance.devices()[index].subgroups.size != 0;
-  return chosen_accel(accel_request(options, subgroups), backend, subpatches);
+  const uint32_t lanes = instance.devices()[index].subgroups.size;
+  const Accel chosen = chosen_accel(accel_request(options, lanes != 0), backend, subpatches);
+  detail("accel {}, with subgroups of {} on the device\n", accel_name(chosen), lanes);
+  return chosen;
 }
 
 TraceSettings settings_of(const RenderOptions& options, const Mesh& mesh, const BakedScene& scene) {
@@ -87,12 +94,15 @@ LoadedScene load_scene(const RenderOptions& options) {
     loaded.model_sha256 = model_sha256(options.model, model.files);
     return build_mesh(std::move(model), options.model, options.mesh);
   });
+  detail("read in {:.1f} ms, SHA-256 {}\n", loaded.load_ms, loaded.model_sha256);
   say("{}: {}\n", options.model, describe(built.report));
-  loaded.scene = timed("baking", loaded.bake_ms, [&] {
-    const SurfaceChoice choice{options.surface, options.alpha, options.shell};
-    return options.solver == SOLVER_ROBUST ? bake_with_subpatches(built.mesh, choice)
-                                           : bake(built.mesh, choice);
-  });
+  const SurfaceChoice choice{options.surface, options.alpha, options.shell};
+  const Stopwatch watch;
+  loaded.scene = options.solver == SOLVER_ROBUST ? bake_showing_progress(built.mesh, choice)
+                                                 : bake(built.mesh, choice);
+  loaded.bake_ms = watch.milliseconds();
+  detail("baked in {:.1f} ms: {} patches, {} subpatches, {} bytes on a device\n", loaded.bake_ms,
+         loaded.scene.triangles.size(), loaded.scene.subpatches.size(), device_bytes(loaded.scene));
   if (const std::size_t count = count_without_surface(loaded.scene); count > 0) {
     say("{}: no surface in the height shell for {} of the triangles, which have a vertex normal in "
         "their plane\n",
@@ -101,6 +111,19 @@ LoadedScene load_scene(const RenderOptions& options) {
   loaded.settings = settings_of(options, built.mesh, loaded.scene);
   loaded.params = make_params(loaded.scene, loaded.settings);
   return loaded;
+}
+
+BakedScene bake_showing_progress(const Mesh& mesh, const SurfaceChoice& choice) {
+  ProgressLine line("baking", mesh.triangles.size());
+  return finished(
+      bake_with_subpatches(mesh, choice, [&](uint32_t done) { return line.show(done); }));
+}
+
+void expect_readable(const std::vector<std::string>& models) {
+  for (const std::string& model : models) {
+    build_mesh(read_model(model), model);
+    stop_if_interrupted();
+  }
 }
 
 TraceResult trace_showing_progress(const TraceRequest& request, const BakedScene& scene,
@@ -117,6 +140,7 @@ void add_bvh(LoadedScene& loaded) {
   double ms = 0.0;
   loaded.scene.bvh = timed("building the tree", ms, [&] { return build_bvh(loaded.scene); });
   loaded.bvh_ms = ms;
+  detail("made a tree of {} nodes in {:.1f} ms\n", loaded.scene.bvh.size(), ms);
 }
 
 }  // namespace trisect

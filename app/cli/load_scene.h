@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/bake/bake.h"
 #include "app/cli/options.h"
@@ -35,6 +36,14 @@ struct LoadedScene {
 
 // Reads, bakes and frames the model, and prints a line about it. Throws InputError or UsageError.
 LoadedScene load_scene(const RenderOptions& options);
+
+// bake_with_subpatches() with a progress line on the terminal. Throws Interrupted if the user stops
+// it.
+BakedScene bake_showing_progress(const Mesh& mesh, const SurfaceChoice& choice);
+
+// build_mesh() of every file, for a command that measures for long: what cannot be read is found
+// before. Throws InputError.
+void expect_readable(const std::vector<std::string>& models);
 
 // trace_scene() with a progress line on the terminal. Throws Interrupted if the user stops it.
 TraceResult trace_showing_progress(const TraceRequest& request, const BakedScene& scene,

@@ -18,9 +18,6 @@
 
 namespace trisect {
 
-// The most pixels along a side of an image, and the most rays along it with several per pixel.
-constexpr uint32_t kLargestSide = 16384;
-
 // Frames of a sequence, counted from 0, the last one among them.
 struct FrameRange {
   uint32_t first = 0;

@@ -20,6 +20,7 @@ enum class Told { standard_output, standard_error, nothing };
 
 // A process has one standard output.
 Told told = Told::standard_output;
+bool is_verbose = false;
 
 void write_to(std::FILE* stream, std::string_view bytes) {
   errno = 0;
@@ -58,6 +59,14 @@ void begin_outputs(const std::vector<std::string>& read, const std::vector<std::
 
 void be_quiet() {
   told = Told::nothing;
+}
+
+void be_verbose() {
+  is_verbose = true;
+}
+
+void tell_detail(std::string_view text) {
+  if (is_verbose) std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
 void tell(std::string_view text) {

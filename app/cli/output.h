@@ -25,12 +25,23 @@ void begin_outputs(const std::vector<std::string>& read, const std::vector<std::
 // From now on say() says nothing.
 void be_quiet();
 
+// From now on detail() says what it is given.
+void be_verbose();
+
 // Writes a text for a person. Throws InputError if standard output cannot be written.
 void tell(std::string_view text);
 
 template <typename... Values>
 void say(fmt::format_string<Values...> format, Values&&... values) {
   tell(fmt::format(format, std::forward<Values>(values)...));
+}
+
+// Writes a text for a person who wants to know more to standard error, if be_verbose() was called.
+void tell_detail(std::string_view text);
+
+template <typename... Values>
+void detail(fmt::format_string<Values...> format, Values&&... values) {
+  tell_detail(fmt::format(format, std::forward<Values>(values)...));
 }
 
 // Of an image: PNG on standard output, else as image_format() says.

@@ -3,6 +3,7 @@
 #include "app/base/error.h"
 #include "app/cli/command_options.h"
 #include "app/cli/option_groups.h"
+#include "app/cli/output.h"
 #include "app/cli/suggestions.h"
 #include "app/dispatch/accel.h"
 
@@ -46,6 +47,11 @@ void add_scene(CLI::App& command, RenderOptions& options, SceneText& text) {
   add_view(command, options, text);
   add_gl_path(command, text.gl_path);
   add_device(command, options.device);
+  command
+      .add_flag_callback("-v,--verbose", be_verbose,
+                         "Say more on standard error: what each step took, why which acceleration, "
+                         "what the device has")
+      ->group(option_group::kOutput);
 }
 
 void add_view(CLI::App& command, RenderOptions& options, SceneText& text) {

@@ -27,7 +27,7 @@ uint32_t draw_text(uint32_t x, uint32_t y, const std::string& text, const vec4& 
   for (char& letter : letters) {
     if (letter < ' ' || letter > '~') letter = '?';
   }
-  std::vector<Corner> corners(4 * 16 * (letters.size() + 1));
+  std::vector<Corner> corners(64 * (letters.size() + 1));
   const int count = stb_easy_font_print(0.0F, 0.0F, letters.data(), nullptr, corners.data(),
                                         static_cast<int>(corners.size() * sizeof(Corner)));
   const auto whole = [](float at) { return static_cast<uint32_t>(std::lround(at)); };

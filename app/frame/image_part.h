@@ -5,6 +5,9 @@
 
 namespace trisect {
 
+// The most pixels along a side of an image, and the most rays along it with several per pixel.
+constexpr uint32_t kLargestSide = 16384;
+
 // A rectangle of an image's pixels: x, y: of its top left one, row 0 being the top.
 struct ImagePart {
   uint32_t x = 0;

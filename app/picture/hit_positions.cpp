@@ -1,12 +1,13 @@
 #include "app/picture/hit_positions.h"
 
+#include <cmath>
 #include <cstddef>
 
 namespace trisect {
 
 std::vector<glm::vec3> hit_positions(const Frame& frame, const Camera& camera, uint32_t across,
                                      const FramePlace& place) {
-  const double middle = (across / 2 + 0.5) / across;
+  const double middle = (std::floor(across / 2.0) + 0.5) / across;
   std::vector<glm::vec3> positions;
   positions.reserve(frame.aovs.size());
   for (uint32_t y = 0; y < frame.height; ++y) {

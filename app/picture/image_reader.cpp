@@ -163,7 +163,7 @@ ImageTexts exr_attributes(const fs::path& path) {
 // libpng's texts of a file. No C++ object may live in here: after an error libpng jumps back into
 // it.
 void read_texts(png_structp png, png_infop info, std::FILE* file, png_textp* texts, int* count) {
-  if (setjmp(png_jmpbuf(png)) != 0) return;
+  if (setjmp(png_jmpbuf(png)) != 0) return;  // NOLINT(cert-err52-cpp): as libpng has it
   png_init_io(png, file);
   png_read_info(png, info);
   png_get_text(png, info, texts, count);

@@ -55,7 +55,7 @@ struct PngContent {
 
 // No C++ object may live in here: after an error libpng jumps back into it.
 void write_content(png_structp png, png_infop info, std::FILE* file, PngContent& content) {
-  if (setjmp(png_jmpbuf(png)) != 0) return;
+  if (setjmp(png_jmpbuf(png)) != 0) return;  // NOLINT(cert-err52-cpp): as libpng has it
   png_init_io(png, file);
   png_set_IHDR(png, info, content.width, content.height, 8,
                content.alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,

@@ -8,11 +8,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <iterator>
 #include <optional>
+#include <system_error>
 
 #include "app/base/error.h"
 #include "app/picture/image_reader.h"
@@ -79,23 +80,39 @@ ImageTexts without_tile(ImageTexts texts) {
   return texts;
 }
 
+// Refuses an image that is larger than any of this program, before memory is taken for it.
+void expect_size(const fs::path& path, uint32_t width, uint32_t height) {
+  if (std::max(width, height) <= kLargestSide) return;
+  refuse(path, fmt::format("is a part of an image of more than {} pixels a side", kLargestSide));
+}
+
+// The numbers of "800x600" or "0,0,16,24", between which that character stands; empty for any other
+// text.
+std::vector<uint32_t> numbers_in(const std::string& text, char between) {
+  std::vector<uint32_t> numbers;
+  const char* at = text.data();
+  const char* end = at + text.size();
+  while (true) {
+    const auto [rest, error] = std::from_chars(at, end, numbers.emplace_back());
+    if (error != std::errc() || (rest != end && *rest != between)) return {};
+    if (rest == end) return numbers;
+    at = rest + 1;
+  }
+}
+
 // Where a PNG's pixels belong. Throws InputError if it does not say that.
 FramePlace place_of(const fs::path& path, const ImageTexts& texts, const PngPixels& pixels) {
-  FramePlace place;
-  uint32_t width = 0;
-  uint32_t height = 0;
-  const bool is_said = std::sscanf(text_named(texts, "size").c_str(), "%ux%u", &place.image_width,
-                                   &place.image_height) == 2 &&
-                       std::sscanf(text_named(texts, "tile").c_str(), "%u,%u,%u,%u", &place.x,
-                                   &place.y, &width, &height) == 4;
-  const auto fits = [](uint32_t first, uint32_t size, uint32_t whole) {
-    return size <= whole && first <= whole - size;
+  const std::vector<uint32_t> size = numbers_in(text_named(texts, "size"), 'x');
+  const std::vector<uint32_t> tile = numbers_in(text_named(texts, "tile"), ',');
+  const auto fits = [](uint32_t first, uint32_t count, uint32_t whole) {
+    return count <= whole && first <= whole - count;
   };
-  if (!is_said || width != pixels.width || height != pixels.height ||
-      !fits(place.x, width, place.image_width) || !fits(place.y, height, place.image_height)) {
+  if (size.size() != 2 || tile.size() != 4 || tile[2] != pixels.width || tile[3] != pixels.height ||
+      !fits(tile[0], tile[2], size[0]) || !fits(tile[1], tile[3], size[1])) {
     refuse(path, "does not say which part of which image it is");
   }
-  return place;
+  expect_size(path, size[0], size[1]);
+  return {tile[0], tile[1], size[0], size[1]};
 }
 
 void stitch_png(const std::vector<fs::path>& parts, const AtomicFile& file) {
@@ -187,8 +204,10 @@ void stitch_exr(const std::vector<fs::path>& parts, const AtomicFile& file) {
       header = part.header();
       first_texts = texts;
       const Imath::Box2i& all = header->displayWindow();
-      coverage.emplace(ExrChannels::size(all.min.x, all.max.x),
-                       ExrChannels::size(all.min.y, all.max.y));
+      const uint32_t width = ExrChannels::size(all.min.x, all.max.x);
+      const uint32_t height = ExrChannels::size(all.min.y, all.max.y);
+      expect_size(path, width, height);
+      coverage.emplace(width, height);
       channels.emplace(*header);
     }
     expect_same_image(path, texts, parts.front(), first_texts);
