@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,10 @@ class CameraPath {
   // So many frames, in which the eye goes once around the target, around the up vector, counted
   // from the camera that at() gets.
   static CameraPath turntable(uint32_t frames);
+
+  // A camera that frames vertices, farther away where it must be for all of them to be seen from
+  // everywhere on the way around its target. aspect: of the image, width over height.
+  static Camera framing(const Camera& camera, std::span<const glm::dvec3> vertices, double aspect);
 
   // Keyframes as JSON: {"frames": 90, "keys": [{"frame": 0, "eye": [3, 1, 4], "target": [0, 0, 0],
   // "up": [0, 1, 0], "fov": 45}, ...]}. What a key leaves out is that of the key before, in the
@@ -44,6 +49,9 @@ class CameraPath {
     std::optional<glm::dvec3> up;
     std::optional<double> fov;
   };
+
+  // Of a turntable's frame, in radians.
+  [[nodiscard]] double angle(uint32_t frame) const { return glm::radians(360.0) * frame / frames_; }
 
   uint32_t frames_ = 0;
   std::vector<Key> keys_;  // none: a turntable

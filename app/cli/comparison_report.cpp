@@ -56,11 +56,7 @@ void ComparisonFiles::write(const nlohmann::ordered_json& json, const Frame& a, 
   if (diff_) {
     write_image(comparison_picture(a, b), *format_, diff_->file());
     diff_->commit();
-    const double gain = comparison_gain(a, b);
-    say("{}: {}\n", name_,
-        gain > 0.0 ? fmt::format("differences are {:.3g} times as bright, white is {:.3g} of 255",
-                                 gain, 255.0 / gain)
-                   : "no colour differs");
+    say("{}: the scale of the difference ends at {}\n", name_, comparison_scale(a, b));
   }
   json_.commit();
 }

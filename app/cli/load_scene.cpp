@@ -9,6 +9,7 @@
 #include "app/bake/subpatch_bounds.h"
 #include "app/base/error.h"
 #include "app/base/stopwatch.h"
+#include "app/cli/camera_path.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/model_sha256.h"
 #include "app/cli/output.h"
@@ -36,9 +37,9 @@ auto timed(const std::string& name, double& ms, Step&& step) {
 
 AccelRequest accel_request(const RenderOptions& options, bool subgroups) {
   const uint32_t side = samples_across(options.spp);
-  const uint32_t width = options.tile ? options.tile->width : options.width;
-  const uint32_t height = options.tile ? options.tile->height : options.height;
-  return {options.accel, options.solver, options.shadows, width * side, height * side, subgroups};
+  // The whole image's size, for parts too: they are made in the same way.
+  return {options.accel,        options.solver,        options.shadows,
+          options.width * side, options.height * side, subgroups};
 }
 
 Accel accel_for(const RenderOptions& options, Backend backend, const BakedScene& scene) {
@@ -75,6 +76,9 @@ TraceSettings settings_of(const RenderOptions& options, const Mesh& mesh, const 
   settings.rank = options.rank;
   const double aspect = static_cast<double>(options.width) / static_cast<double>(options.height);
   settings.camera = framing_camera(mesh.positions, scene.origin, options.fov, options.up, aspect);
+  if (options.turntable) {
+    settings.camera = CameraPath::framing(settings.camera, mesh.positions, aspect);
+  }
   if (options.eye) settings.camera.eye = *options.eye;
   if (options.target) settings.camera.target = *options.target;
   if (options.light) settings.light = *options.light;

@@ -61,6 +61,10 @@ void be_quiet() {
   told = Told::nothing;
 }
 
+bool shows_progress() {
+  return told != Told::nothing && isatty(STDERR_FILENO) == 1;
+}
+
 void be_verbose() {
   is_verbose = true;
 }

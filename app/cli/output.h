@@ -25,6 +25,9 @@ void begin_outputs(const std::vector<std::string>& read, const std::vector<std::
 // From now on say() says nothing.
 void be_quiet();
 
+// Whether a person watches: standard error is a terminal, and be_quiet() was not called.
+bool shows_progress();
+
 // From now on detail() says what it is given.
 void be_verbose();
 

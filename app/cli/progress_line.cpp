@@ -1,7 +1,6 @@
 #include "app/cli/progress_line.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include "app/cli/interrupt.h"
+#include "app/cli/output.h"
 
 namespace trisect {
 
@@ -30,7 +30,7 @@ bool ProgressLine::show(uint64_t done) {
   if (!not_interrupted()) return false;
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  if (seconds < 1.0 || isatty(STDERR_FILENO) == 0) return true;
+  if (seconds < 1.0 || !shows_progress()) return true;
   const double part =
       static_cast<double>(done) / static_cast<double>(std::max<uint64_t>(total_, 1));
   constexpr int width = 30;
@@ -46,7 +46,7 @@ bool ProgressLine::show(uint64_t done) {
 }
 
 BusyLine::BusyLine(std::string step) : step_(std::move(step)) {
-  if (isatty(STDERR_FILENO) != 0) thread_ = std::thread([this] { show_until_ended(); });
+  if (shows_progress()) thread_ = std::thread([this] { show_until_ended(); });
 }
 
 BusyLine::~BusyLine() {

@@ -14,8 +14,8 @@ namespace trisect {
 std::string duration_text(double seconds);
 
 // Shows what part of a step is done, and how long the rest will take if it goes on like that. Shows
-// nothing for a step that takes less than a second, and nothing at all if standard error is
-// not a terminal.
+// nothing for a step that takes less than a second, and nothing at all unless
+// shows_progress().
 class ProgressLine {
  public:
   ProgressLine(std::string step, uint64_t total);

@@ -126,6 +126,22 @@ class Renderer {
   Frame frame_;
 };
 
+// Throws InputError, naming the path's file, if the camera of a frame is none.
+void expect_cameras(const RenderOptions& options, const Sequence& sequence,
+                    const LoadedScene& loaded) {
+  for (const Shot& shot : sequence.shots()) {
+    TraceSettings settings = loaded.settings;
+    settings.camera = sequence.camera(shot, settings.camera);
+    try {
+      make_params(loaded.scene, settings);
+    } catch (const UsageError&) {
+      throw InputError(
+          fmt::format("{}: in frame {} the camera looks nowhere, or along its up vector.",
+                      options.camera_path, shot.frame));
+    }
+  }
+}
+
 // Renders the frames of a path but for those that are finished.
 void render_path(const RenderOptions& options, const Sequence& sequence, const LoadedScene& loaded,
                  Accel accel, Renderer& renderer) {
@@ -168,6 +184,9 @@ int render(RenderOptions options) {
   if (repeated && options.aovs.empty() && !repeated->aovs.empty() && format == ImageFormat::exr) {
     options.aovs = parse_aovs(options.from, repeated->aovs);
   }
+  if (std::find(options.aovs.begin(), options.aovs.end(), Aov::evals) != options.aovs.end()) {
+    options.evals = true;
+  }
   const PictureContents picture(format, options);
   const Sequence sequence(options);
   for (const Shot& shot : sequence.shots()) {
@@ -184,6 +203,7 @@ int render(RenderOptions options) {
 
   Renderer renderer(options, picture, loaded, accel);
   if (sequence.is_path()) {
+    expect_cameras(options, sequence, loaded);
     render_path(options, sequence, loaded, accel, renderer);
     return renderer.close();
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -33,18 +34,16 @@ vec4 mask_color(const Frame& a, const Frame& b, std::size_t pixel) {
 }
 
 // The scale of the difference on the left, the mask's colours on the right.
-void draw_key(double gain, uint32_t top, Frame& picture) {
+void draw_key(const std::string& scale, uint32_t top, Frame& picture) {
   const uint32_t y = top + (kComparisonKeyHeight - kTextHeight) / 2 + 1;
   const uint32_t middle = picture.width / 2;
-  const std::string largest = gain > 0.0 ? fmt::format("{:.3g} of 255, x{:.3g}", 255.0 / gain, gain)
-                                         : std::string("no difference");
   uint32_t x = draw_text(2, y, "0", kWhite, picture) + 2;
   constexpr uint32_t bar = 48;
   for (uint32_t i = 0; i < bar && x + i < middle; ++i) {
     const float level = static_cast<float>(i) / static_cast<float>(bar - 1);
     fill_rectangle(x + i, top + 3, 1, kComparisonKeyHeight - 6, vec4(vec3(level), 1.0F), picture);
   }
-  draw_text(x + bar + 2, y, largest, kWhite, picture);
+  draw_text(x + bar + 2, y, scale, kWhite, picture);
   fill_rectangle(middle, top, picture.width - middle, kComparisonKeyHeight, kBlack, picture);
   x = middle + 2;
   for (const auto& [color, text] :
@@ -57,14 +56,19 @@ void draw_key(double gain, uint32_t top, Frame& picture) {
 
 }  // namespace
 
-double comparison_gain(const Frame& a, const Frame& b) {
-  const double largest = color_difference(a, b).largest_number;
-  return largest > 0.0 ? 255.0 / largest : 0.0;
+std::string comparison_scale(const Frame& a, const Frame& b) {
+  const ColorDifference difference = color_difference(a, b);
+  const double white = difference.largest_number;
+  const std::string scale = white > 0.0
+                                ? fmt::format("{:.3g} of 255, x{:.3g}", white, 255.0 / white)
+                                : std::string("no difference");
+  return std::isfinite(difference.largest) ? scale : scale + ", some not finite";
 }
 
 Frame comparison_picture(const Frame& a, const Frame& b) {
   expect_same_size(a, b);
-  const double gain = comparison_gain(a, b);
+  const double largest = color_difference(a, b).largest_number;
+  const double gain = largest > 0.0 ? 255.0 / largest : 0.0;
   Frame picture;
   picture.resize(2 * a.width, 2 * a.height + kComparisonKeyHeight, false);
   picture.colors.assign(picture.colors.size(), kBlack);
@@ -82,7 +86,7 @@ Frame comparison_picture(const Frame& a, const Frame& b) {
       at(1, 1) = mask_color(a, b, i);
     }
   }
-  draw_key(gain, 2 * a.height, picture);
+  draw_key(comparison_scale(a, b), 2 * a.height, picture);
   return picture;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "app/frame/frame.h"
 
@@ -18,7 +19,8 @@ constexpr uint32_t kComparisonKeyHeight = 16;
 // InputError if the frames are not of the same size.
 Frame comparison_picture(const Frame& a, const Frame& b);
 
-// By how much comparison_picture() amplifies differences; 0 if there are none.
-double comparison_gain(const Frame& a, const Frame& b);
+// What the scale of comparison_picture() is: "185 of 255, x1.38", and whether some differences are
+// not finite.
+std::string comparison_scale(const Frame& a, const Frame& b);
 
 }  // namespace trisect

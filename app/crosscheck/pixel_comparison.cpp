@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -35,7 +36,9 @@ ColorDifference color_difference(const Frame& a, const Frame& b) {
           255.0 * (static_cast<double>(a.colors[i][k]) - static_cast<double>(b.colors[i][k]));
       squares += steps * steps;
       max_propagating_nan(difference.largest, std::abs(steps));
-      if (std::abs(steps) > difference.largest_number) difference.largest_number = std::abs(steps);
+      if (std::isfinite(steps)) {
+        difference.largest_number = std::max(difference.largest_number, std::abs(steps));
+      }
     }
   }
   difference.rmse = std::sqrt(squares / (3.0 * static_cast<double>(a.colors.size())));

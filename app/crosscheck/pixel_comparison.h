@@ -19,7 +19,7 @@ void expect_same_size(const Frame& a, const Frame& b);
 struct ColorDifference {
   double rmse = 0.0;
   double largest = 0.0;         // NaN if any is
-  double largest_number = 0.0;  // of those that are not NaN
+  double largest_number = 0.0;  // of those that are finite
 };
 
 // Of frames of the same size.

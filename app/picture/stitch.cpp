@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <system_error>
 
 #include "app/base/error.h"
@@ -24,8 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What attributes of two parts, or two frames, may differ.
-constexpr const char* kMayDiffer[] = {"program", "commit", "device", "driver", "accel", "tile"};
+// Where one picture is made in several places, these may be others in each.
+constexpr const char* kMayDiffer[] = {"program", "commit", "device", "driver", "model", "accel"};
 
 std::string text_named(const ImageTexts& texts, const std::string& name) {
   for (const auto& [key, value] : texts) {
@@ -51,11 +52,13 @@ class Coverage {
     }
   }
 
-  void expect_all(const fs::path& target) const {
+  // part: one of those that do not cover it.
+  void expect_all(const fs::path& part) const {
     const auto missing = std::find(covered_.begin(), covered_.end(), false);
     if (missing == covered_.end()) return;
     const auto index = static_cast<std::size_t>(missing - covered_.begin());
-    refuse(target, fmt::format("no part has the pixel ({}, {})", index % width_, index / width_));
+    refuse(part, fmt::format("neither it nor another part has the pixel ({}, {})", index % width_,
+                             index / width_));
   }
 
  private:
@@ -63,22 +66,46 @@ class Coverage {
   std::vector<bool> covered_;
 };
 
-// Refuses a part that says of its image what the first one does not.
-void expect_same_image(const fs::path& path, const ImageTexts& texts, const fs::path& first,
-                       const ImageTexts& first_texts) {
-  const std::string name = difference_between(texts, first_texts);
-  if (!name.empty()) {
-    refuse(path, fmt::format("is a part of another image than {}, with another {}", first.string(),
-                             name));
-  }
-}
-
-ImageTexts without_tile(ImageTexts texts) {
+ImageTexts without(const std::set<std::string>& names, ImageTexts texts) {
   texts.erase(std::remove_if(texts.begin(), texts.end(),
-                             [](const auto& text) { return text.first == "tile"; }),
+                             [&](const auto& text) { return names.count(text.first) > 0; }),
               texts.end());
   return texts;
 }
+
+// What the parts of an image say of it.
+class PartTexts {
+ public:
+  // Refuses a part that says of its image what the first one does not.
+  void add(const fs::path& path, const ImageTexts& texts) {
+    if (first_.empty()) {
+      first_ = path;
+      texts_ = texts;
+    }
+    const std::string name =
+        difference_between(without({"tile"}, texts), without({"tile"}, texts_));
+    if (!name.empty()) {
+      refuse(path, fmt::format("is a part of another image than {}, with another {}",
+                               first_.string(), name));
+    }
+    for (const char* may_differ : kMayDiffer) {
+      if (text_named(texts, may_differ) != text_named(texts_, may_differ)) {
+        not_of_all_.insert(may_differ);
+      }
+    }
+  }
+
+  // The names of what is not the same for all parts.
+  [[nodiscard]] const std::set<std::string>& not_of_all() const { return not_of_all_; }
+
+  // What all of them say.
+  [[nodiscard]] ImageTexts of_all() const { return without(not_of_all_, texts_); }
+
+ private:
+  fs::path first_;
+  ImageTexts texts_;
+  std::set<std::string> not_of_all_{"tile"};
+};
 
 // Refuses an image that is larger than any of this program, before memory is taken for it.
 void expect_size(const fs::path& path, uint32_t width, uint32_t height) {
@@ -117,7 +144,7 @@ FramePlace place_of(const fs::path& path, const ImageTexts& texts, const PngPixe
 
 void stitch_png(const std::vector<fs::path>& parts, const AtomicFile& file) {
   PngPixels whole;
-  ImageTexts first_texts;
+  PartTexts part_texts;
   std::optional<Coverage> coverage;
   for (const fs::path& path : parts) {
     const ImageTexts texts = read_attributes(path);
@@ -125,12 +152,11 @@ void stitch_png(const std::vector<fs::path>& parts, const AtomicFile& file) {
     const FramePlace place = place_of(path, texts, pixels);
     const std::size_t components = pixels.alpha ? 4 : 3;
     if (!coverage) {
-      first_texts = texts;
       whole = {place.image_width, place.image_height, pixels.alpha, {}};
       whole.bytes.resize(std::size_t{whole.width} * whole.height * components);
       coverage.emplace(whole.width, whole.height);
     }
-    expect_same_image(path, texts, parts.front(), first_texts);
+    part_texts.add(path, texts);
     if (pixels.alpha != whole.alpha) {
       refuse(path, fmt::format("has not the components of {}", parts.front().string()));
     }
@@ -142,8 +168,8 @@ void stitch_png(const std::vector<fs::path>& parts, const AtomicFile& file) {
     }
     coverage->add({place.x, place.y, pixels.width, pixels.height});
   }
-  coverage->expect_all(file.target());
-  write_png_pixels(whole, without_tile(first_texts), std::nullopt, file);
+  coverage->expect_all(parts.front());
+  write_png_pixels(whole, part_texts.of_all(), std::nullopt, file);
 }
 
 // All channels of an image, as wide and high as its display window.
@@ -195,14 +221,13 @@ void stitch_exr(const std::vector<fs::path>& parts, const AtomicFile& file) {
   std::optional<Imf::Header> header;
   std::optional<ExrChannels> channels;
   std::optional<Coverage> coverage;
-  ImageTexts first_texts;
+  PartTexts part_texts;
   for (const fs::path& path : parts) {
-    const ImageTexts texts = read_attributes(path);
+    part_texts.add(path, read_attributes(path));
     Imf::InputFile part(path.c_str());
     const ImagePart place = part_of(path, part.header());
     if (!header) {
       header = part.header();
-      first_texts = texts;
       const Imath::Box2i& all = header->displayWindow();
       const uint32_t width = ExrChannels::size(all.min.x, all.max.x);
       const uint32_t height = ExrChannels::size(all.min.y, all.max.y);
@@ -210,7 +235,6 @@ void stitch_exr(const std::vector<fs::path>& parts, const AtomicFile& file) {
       coverage.emplace(width, height);
       channels.emplace(*header);
     }
-    expect_same_image(path, texts, parts.front(), first_texts);
     if (part.header().displayWindow() != header->displayWindow() ||
         !(part.header().channels() == header->channels())) {
       refuse(path, fmt::format("has not the size or channels of {}", parts.front().string()));
@@ -218,9 +242,9 @@ void stitch_exr(const std::vector<fs::path>& parts, const AtomicFile& file) {
     channels->read(part);
     coverage->add(place);
   }
-  coverage->expect_all(file.target());
+  coverage->expect_all(parts.front());
   header->dataWindow() = header->displayWindow();
-  header->erase("tile");
+  for (const std::string& name : part_texts.not_of_all()) header->erase(name.c_str());
   Imf::OutputFile out(file.temporary().c_str(), *header);
   out.setFrameBuffer(channels->slices());
   out.writePixels(header->dataWindow().max.y - header->dataWindow().min.y + 1);
@@ -229,10 +253,12 @@ void stitch_exr(const std::vector<fs::path>& parts, const AtomicFile& file) {
 }  // namespace
 
 std::string difference_between(const ImageTexts& a, const ImageTexts& b) {
+  const bool counts_work = text_named(a, "evals") == "1" || text_named(b, "evals") == "1";
   for (const auto& [one, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
     for (const auto& [name, value] : *one) {
-      const bool counts =
-          std::find(std::begin(kMayDiffer), std::end(kMayDiffer), name) == std::end(kMayDiffer);
+      const bool may_differ =
+          std::find(std::begin(kMayDiffer), std::end(kMayDiffer), name) != std::end(kMayDiffer);
+      const bool counts = !may_differ || (name == "accel" && counts_work);
       if (counts && text_named(*other, name) != value) return name;
     }
   }

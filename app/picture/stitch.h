@@ -21,8 +21,9 @@ void stitch(const std::vector<std::filesystem::path>& parts, ImageFormat format,
 // Whether the file, PNG or EXR, can be read to its end.
 bool is_whole_image(const std::filesystem::path& path);
 
-// The name of what the two say differently of their pictures, "eye" or "model_sha256", apart from
-// who made them and where; empty if there is nothing.
+// The name of what the two say differently of their pictures, "eye" or "model_sha256"; empty if
+// there is nothing. Who made them on what, and where the model lies, does not count, nor, without
+// counts of evaluations, the acceleration, on which no other output depends.
 std::string difference_between(const ImageTexts& a, const ImageTexts& b);
 
 }  // namespace trisect

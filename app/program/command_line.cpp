@@ -12,12 +12,11 @@
 
 #include "app/base/error.h"
 #include "app/bench/command_line.h"
-#include "app/cli/camera_path.h"
 #include "app/cli/command_options.h"
 #include "app/cli/commands.h"
 #include "app/cli/option_groups.h"
 #include "app/cli/output.h"
-#include "app/cli/picture_source.h"
+#include "app/cli/render_options.h"
 #include "app/cli/scene_options.h"
 #include "app/cli/suggestions.h"
 #include "app/program/help_format.h"
@@ -77,111 +76,25 @@ void add_json(CLI::App& command, std::string& json, const std::string& what) {
 }
 
 Command add_render(CLI::App& app) {
-  // The options, and values of options as text that is parsed after CLI11 is done.
   struct Values {
     RenderOptions options;
-    SceneText scene;
-    std::optional<std::string> backend;
-    std::optional<std::string> aovs;
-    std::optional<std::string> tile;
-    std::optional<std::string> frames;
+    RenderText text;
+    bool repeats = false;  // the options began as those of a picture
   };
   const auto [command, values] =
       add_command<Values>(app, "render", "Render a model to an image file");
-  RenderOptions& options = values->options;
-  add_scene(command, options, values->scene);
-  command.get_option("MODEL")->required(false);
-  command
-      .add_option("--from", options.from,
-                  "Make this picture again, a .png or .exr of this program: its model and options "
-                  "are taken where none are given")
-      ->group(option_group::kModel)
-      ->check(not_empty())
-      ->check(suggest_images())
-      ->type_name("FILE");
-  command
-      .add_option("-o,--output", options.output,
-                  "Image to write: .png (8-bit sRGB), .exr (linear float, with AOVs) or .pfm "
-                  "(float, one of "
-                  "them); - writes PNG to standard output")
-      ->group(option_group::kOutput)
-      ->required()
-      ->check(suggest_files({".png", ".exr", ".pfm"}))
-      ->type_name("FILE");
-  command
-      .add_option("--backend", values->backend,
-                  "Who traces: vulkan, opengl, cpu (the same kernel as C++) or oracle (double "
-                  "precision, slow), default vulkan")
-      ->group(option_group::kTracing)
-      ->check(one_of({"vulkan", "opengl", "cpu", "oracle"}))
-      ->type_name("NAME");
-  command
-      .add_option("--aov", values->aovs,
-                  "What an EXR holds of each pixel, of color, Z, N, G, patch, uv, P (position) and "
-                  "evals, default color,Z,N,G,patch,uv; a PFM holds one of them, default color")
-      ->group(option_group::kOutput)
-      ->type_name("A,B,...");
-  command
-      .add_option("--tile", values->tile,
-                  "Render this part of the image only, x and y of its top left pixel, width and "
-                  "height; trisect stitch puts parts together")
-      ->group(option_group::kSequence)
-      ->type_name("X,Y,W,H");
-  command
-      .add_option("--turntable", options.turntable,
-                  "N frames, in which the camera goes once around the target; {frame} in the "
-                  "names of outputs becomes the frame's number")
-      ->group(option_group::kSequence)
-      ->check(number_from_to(1, static_cast<int>(kMostFrames)))
-      ->type_name("N");
-  command
-      .add_option("--camera-path", options.camera_path,
-                  "Frames along keyframes of a JSON file, see docs/sequences.md")
-      ->group(option_group::kSequence)
-      ->check(not_empty())
-      ->check(suggest_files({".json"}))
-      ->type_name("FILE");
-  command
-      .add_option("--frames", values->frames,
-                  "Render frames A to B of those, or frame A alone, counted from 0")
-      ->group(option_group::kSequence)
-      ->type_name("A:B");
-  command.add_flag("--resume", options.resume, "Leave out the frames whose files are there")
-      ->group(option_group::kSequence);
-  command
-      .add_flag("--validation", options.validation,
-                "Run under the Vulkan validation layer, fail on any message")
-      ->group(option_group::kTracing);
-  add_spp(command, options.spp);
-  command
-      .add_option("--runs", options.runs,
-                  "Frames to time after a warm-up; without it one, which is not preceded by any")
-      ->group(option_group::kMeasuring)
-      ->check(number_from_to(1, 1000000))
-      ->type_name("N");
-  command
-      .add_flag("--evals", options.evals,
-                "Count evaluations of the surface: EXR channel evals, evals_total in the figures")
-      ->group(option_group::kMeasuring);
-  command.add_option("--stats", options.stats, "Write the figures as JSON")
-      ->group(option_group::kOutput)
-      ->check(not_empty())
-      ->check(suggest_files({".json"}))
-      ->type_name("FILE.json");
-  return {&command, [values = values] {
-            RenderOptions& parsed = values->options;
-            parse_scene(values->scene, parsed);
-            if (values->backend) parsed.backend = backend_named("--backend", *values->backend);
-            if (values->aovs) parsed.aovs = parse_aovs("--aov", *values->aovs);
-            if (values->frames) parsed.frames = parse_frames("--frames", *values->frames);
-            if (values->tile) {
-              parsed.tile = parse_part("--tile", *values->tile, parsed.width, parsed.height);
-              if (parsed.gl_path == GlPath::fragment) {
-                throw UsageError("--tile: it needs --gl-path compute.");
-              }
-            }
-            return render(parsed);
-          }};
+  add_render_options(command, values->options, values->text);
+  const auto before = [values = values](const std::vector<std::string>& words) {
+    const std::optional<std::string> file = file_to_repeat(words);
+    if (file) values->options = saved_options(*file);
+    values->repeats = file.has_value();
+  };
+  const auto run = [values = values, &command = command] {
+    if (values->repeats) give_way(command, values->text, values->options);
+    parse_render(values->text, values->options);
+    return render(values->options);
+  };
+  return {&command, run, before};
 }
 
 Command add_stitch(CLI::App& app) {
@@ -395,21 +308,6 @@ Command add_devices(CLI::App& app) {
   return {&command, [options = options] { return list_devices(*options); }};
 }
 
-// Where `render` is to make a picture again: puts the options that its file names before those that
-// are given, which count if both are there. Throws InputError if the file names none.
-void insert_saved_options(std::vector<std::string>& words) {
-  if (words.empty() || words[0] != "render") return;
-  const std::string option = "--from";
-  std::string file;
-  for (std::size_t i = 1; i < words.size(); ++i) {
-    if (words[i] == option && i + 1 < words.size()) file = words[i + 1];
-    if (words[i].starts_with(option + "=")) file = words[i].substr(option.size() + 1);
-  }
-  if (file.empty()) return;
-  const std::vector<std::string> saved = saved_picture(file).words;
-  words.insert(words.begin() + 1, saved.begin(), saved.end());
-}
-
 // Of a command that adds itself: bench and view.
 template <typename Other>
 Command add_other(CLI::App& app, const std::string& name) {
@@ -452,7 +350,13 @@ bool CommandLine::parse(int argc, const char* const* argv) {
   if (!words.empty() && !words[0].starts_with('-') && app_.get_subcommands(is_named).empty()) {
     throw UsageError(fmt::format("'{}' is not a command (see trisect --help)", words[0]));
   }
-  insert_saved_options(words);
+  const bool asks_help = std::any_of(words.begin(), words.end(), [](const std::string& word) {
+    return word == "-h" || word == "--help";
+  });
+  for (const Command& command : commands_) {
+    const bool is_this = !words.empty() && command.parsed->get_name() == words[0];
+    if (command.before && is_this && !asks_help) command.before(words);
+  }
   std::reverse(words.begin(), words.end());  // CLI11 takes them from the end
   try {
     app_.parse(std::move(words));

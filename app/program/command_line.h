@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace trisect {
@@ -12,6 +13,8 @@ class CommandLine {
   struct Command {
     const CLI::App* parsed;    // belongs to the app
     std::function<int()> run;  // to be called after it was parsed; returns the exit code
+    // If set, to be called with the words before they are parsed.
+    std::function<void(const std::vector<std::string>&)> before = {};
   };
 
   CommandLine();

@@ -21,7 +21,8 @@ const std::map<std::string, CommandTexts>& texts() {
          {"Show it in a window", "trisect view teapot.obj"},
          {"See which devices there are", "trisect devices"}}}},
       {"trisect render",
-       {{"Renders one picture. Without --eye the camera frames the model. A PNG holds the colours "
+       {{"Renders one picture, a part of it, or the frames of a camera path. Without --eye the "
+         "camera frames the model. A PNG holds the colours "
          "as they are shown; an EXR holds them as linear light, with depth, normals, the triangle "
          "and the place in it for every pixel, and says in its header what makes the picture "
          "again."},
@@ -32,7 +33,9 @@ const std::map<std::string, CommandTexts>& texts() {
           "transparent"},
          {"As the thesis drew it, with the figures as JSON",
           "trisect render teapot.obj -o thesis.exr --preset thesis --rank 20 --stats "
-          "thesis.json"}}}},
+          "thesis.json"},
+         {"Once around the model, and on where it was stopped",
+          "trisect render model.glb --turntable 90 -o 'frames/{frame}.png' --resume"}}}},
       {"trisect view",
        {{"While something moves the resolution gives way to keep to the time of a frame; when all "
          "is still the picture comes to full resolution, and then nothing is computed. H shows the "
@@ -44,7 +47,8 @@ const std::map<std::string, CommandTexts>& texts() {
          {"Save a picture after ten frames and end",
           "trisect view teapot.obj --frames 10 --screenshot view.png"}}}},
       {"trisect stitch",
-       {{"The parts may come from several machines. The image is that of one render, bit for bit."},
+       {{"The parts may come from several machines. On like devices the image is that of one "
+         "render, bit for bit."},
         {{"Two halves", "trisect stitch left.png right.png -o whole.png"},
          {"An image with all its outputs",
           "trisect stitch part-0.exr part-1.exr part-2.exr -o whole.exr"}}}},

@@ -99,6 +99,60 @@ TEST_F(SavedPictures, GiveWayToWhatIsGiven) {
   EXPECT_EQ(second["eye"], first["eye"]);
 }
 
+// What was saved and does not go with what is given is left out.
+TEST_F(SavedPictures, GiveWayWhereTheyMust) {
+  const auto again = [&](const std::string& file, const Words& options) {
+    Words words{"render", "--from", folder_ / file, "-o", folder_ / "b.exr"};
+    words.insert(words.end(), options.begin(), options.end());
+    const test::ProgramRun run = run_trisect(words);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return said_by(folder_ / "b.exr");
+  };
+  ASSERT_EQ(render({"--color", "1,0,0", "--shadows", "--evals"}, "a.exr").exit_code, 0);
+  const auto depth = again("a.exr", {"--shading", "depth"});
+  EXPECT_EQ(depth.at("shading"), "depth");
+  EXPECT_EQ(depth.at("background"), "0,0,0");
+  EXPECT_EQ(depth.at("shadows"), "0");
+  const auto thesis = again("a.exr", {"--preset", "thesis"});
+  EXPECT_EQ(thesis.at("solver"), "bisect");
+  EXPECT_EQ(thesis.at("shell"), "height");
+  EXPECT_EQ(thesis.at("shading"), "grid");
+  EXPECT_EQ(thesis.at("color"), "1,0,0");
+  EXPECT_EQ(again("a.exr", {"--backend", "cpu"}).at("accel"), "list");
+  ASSERT_EQ(render({"--backend", "opengl", "--gl-path", "fragment"}, "gl.png").exit_code, 0);
+  EXPECT_EQ(again("gl.png", {"--backend", "vulkan", "--shadows"}).count("gl_path"), 0U);
+  ASSERT_EQ(render({"--tile", "0,0,32,10"}, "part.png").exit_code, 0);
+  EXPECT_EQ(again("part.png", {}).at("tile"), "0,0,32,10");
+  EXPECT_EQ(again("part.png", {"--size", "16x12"}).count("tile"), 0U);
+}
+
+// A file that says nonsense is bad input, named, and does not keep help from being given.
+TEST_F(SavedPictures, AreRefusedIfTheySayWhatCannotBe) {
+  Frame frame;
+  frame.resize(4, 4, false);
+  const auto expect_refused = [&](const std::string& name, const std::string& value) {
+    ImageContents contents;
+    contents.attributes = {
+        {"program", std::string("trisect 0")}, {"model", test::asset_path("cube")}, {name, value}};
+    save_image(frame, folder_ / "bad.png", contents);
+    const test::ProgramRun run =
+        run_trisect({"render", "--from", folder_ / "bad.png", "-o", folder_ / "b.png"});
+    EXPECT_EQ(run.exit_code, 3) << run.err;
+    EXPECT_NE(run.err.find("bad.png: what it says of how it was made cannot be: "),
+              std::string::npos)
+        << run.err;
+  };
+  expect_refused("size", "0x0");
+  expect_refused("size", "60000x60000");
+  expect_refused("backend", "gpu");
+  expect_refused("spp", "7");
+  expect_refused("fov", "nan");
+  expect_refused("color", "1,2");
+  expect_refused("aov", "bogus");
+  expect_refused("tile", "0,0,900,1");
+  EXPECT_EQ(run_trisect({"render", "--from", "none.png", "--help"}).exit_code, 0);
+}
+
 TEST_F(SavedPictures, TellOfAnotherModelDeviceOrNothing) {
   const std::string model = folder_ / "model.obj";
   std::filesystem::copy_file(test::asset_path("cube"), model);
@@ -145,6 +199,10 @@ TEST_F(SavedPictures, HoldTheOutputsThatAreAskedFor) {
   EXPECT_EQ(channels("color"), "A B G R ");
   EXPECT_EQ(channels("Z,patch"), "Z patch ");
   EXPECT_EQ(channels("P,N,G,uv,evals"), "G.X G.Y G.Z N.X N.Y N.Z P.X P.Y P.Z U V evals ");
+  // What is asked for is counted.
+  EXPECT_EQ(said_by(folder_ / "a.exr").at("evals"), "1");
+  ASSERT_EQ(render({"--aov", "color,Z,N,G,patch,uv,evals"}, "a.exr").exit_code, 0);
+  EXPECT_GT(test::exr_sum(folder_ / "a.exr", "evals"), 0.0);
   std::filesystem::remove(folder_ / "a.exr");
   expect_complaint(render({"--aov", "depth"}, "a.exr"), 2, "'depth' is not one of: color, Z");
   expect_complaint(render({"--aov", ""}, "a.exr"), 2, "--aov");

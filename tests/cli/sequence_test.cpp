@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/picture/image_reader.h"
 #include "tests/support/file_content.h"
 #include "tests/support/program.h"
 #include "tests/support/run_program.h"
@@ -41,14 +42,15 @@ class Sequences : public test::Program {
 };
 
 TEST_F(Sequences, HaveAFileForEachFrame) {
-  const test::ProgramRun run = render_frames({"--stats", folder_ / "{frame}.json"});
+  const test::ProgramRun run =
+      render_frames({"--eye", "1,2,3", "--stats", folder_ / "{frame}.json"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(names(), (std::set<std::string>{"0000.png", "0000.json", "0001.png", "0001.json",
                                             "0002.png", "0002.json", "0003.png", "0003.json"}));
   EXPECT_NE(content("0000.png"), content("0002.png"));
   EXPECT_EQ(nlohmann::json::parse(content("0002.json"))["frame"], 2);
   // The first frame is the picture without a path, and each can be made again on its own.
-  ASSERT_EQ(render({}, "alone.png").exit_code, 0);
+  ASSERT_EQ(render({"--eye", "1,2,3"}, "alone.png").exit_code, 0);
   EXPECT_EQ(content("0000.png"), content("alone.png"));
   ASSERT_EQ(run_trisect({"render", "--from", folder_ / "0003.png", "-o", folder_ / "again.png"})
                 .exit_code,
@@ -81,6 +83,8 @@ TEST_F(Sequences, GoOnWithWhatIsMissing) {
   EXPECT_EQ(names().size(), 4U);
   EXPECT_GT(content("0002.png").size(), 300U);
   const test::ProgramRun all = render_frames({"--resume"});
+  EXPECT_EQ(all.exit_code, 0) << all.err;
+  EXPECT_NE(all.out.find("0003.png is there"), std::string::npos) << all.out;
   EXPECT_EQ(all.out.find("pixels hit"), std::string::npos) << all.out;
   // Frames of another view are no frames of this sequence.
   const test::ProgramRun other = render_frames({"--resume", "--fov", "20"});
@@ -92,8 +96,54 @@ TEST_F(Sequences, GoOnWithWhatIsMissing) {
   EXPECT_NE(content("0001.png"), whole);
   // An EXR without colours is whole, too.
   ASSERT_EQ(render_frames({"--aov", "Z"}, "{frame}.exr").exit_code, 0);
-  EXPECT_EQ(render_frames({"--aov", "Z", "--resume"}, "{frame}.exr").out.find("pixels hit"),
-            std::string::npos);
+  const test::ProgramRun deep = render_frames({"--aov", "Z", "--resume"}, "{frame}.exr");
+  EXPECT_EQ(deep.exit_code, 0) << deep.err;
+  EXPECT_NE(deep.out.find("0003.exr is there"), std::string::npos) << deep.out;
+  EXPECT_EQ(deep.out.find("pixels hit"), std::string::npos) << deep.out;
+}
+
+// Neither a part of a frame nor one of other counts is the frame.
+TEST_F(Sequences, GoOnWithWholeFramesOnly) {
+  ASSERT_EQ(render_frames({"--tile", "0,0,32,10"}).exit_code, 0);
+  const test::ProgramRun whole = render_frames({"--resume"});
+  EXPECT_EQ(whole.exit_code, 3);
+  EXPECT_NE(whole.err.find("0000.png: is there already, with another tile"), std::string::npos)
+      << whole.err;
+  ASSERT_EQ(render_frames({"--evals", "--accel", "list"}, "{frame}.exr").exit_code, 0);
+  EXPECT_EQ(render_frames({"--evals", "--accel", "bvh", "--resume"}, "{frame}.exr").exit_code, 3);
+  ASSERT_EQ(render_frames({"--accel", "list"}, "x{frame}.exr").exit_code, 0);
+  EXPECT_EQ(render_frames({"--accel", "bvh", "--resume"}, "x{frame}.exr").exit_code, 0);
+}
+
+// A model that is much longer than it is high stays in the picture all the way around.
+TEST_F(Sequences, SeeAllOfTheModelFromEverywhere) {
+  std::ofstream(folder_ / "long.obj") << "v -10 -1 0\nv 10 -1 0\nv 10 1 0\nv -10 1 0\nv 0 0 1\n"
+                                         "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 4 3 2 1\n";
+  const test::ProgramRun run =
+      run_trisect({"render", folder_ / "long.obj", "--surface", "flat", "--turntable", "8",
+                   "--size", "64x48", "-o", folder_ / "{frame}.exr"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const char* name : {"0000.exr", "0001.exr", "0002.exr", "0005.exr"}) {
+    const Frame frame = read_image(folder_ / name);
+    EXPECT_GT(frame.hits(), 5U) << name;
+    for (std::size_t y = 0; y < 48; ++y) {
+      EXPECT_EQ(frame.colors[y * 64].w + frame.colors[y * 64 + 63].w, 0.0F) << name;
+    }
+  }
+}
+
+TEST_F(Sequences, FindABadCameraBeforeTheFirstFrame) {
+  const std::string path = folder_ / "path.json";
+  std::ofstream(path)
+      << R"({"keys": [{"frame": 0, "up": [0, 1, 0]}, {"frame": 2, "up": [0, -1, 0]}]})";
+  const test::ProgramRun run = render({"--camera-path", path}, "{frame}.png");
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_NE(run.err.find("path.json: in frame 1 the camera looks nowhere"), std::string::npos)
+      << run.err;
+  EXPECT_EQ(files(), 1U);
+  const test::ProgramRun folder = render({"--camera-path", folder_.path().string()}, "{frame}.png");
+  EXPECT_EQ(folder.exit_code, 3);
+  EXPECT_NE(folder.err.find("cannot be read"), std::string::npos) << folder.err;
 }
 
 TEST_F(Sequences, RefuseOptionsThatDoNotGoTogether) {
@@ -142,6 +192,7 @@ class Parts : public Sequences {
 
 TEST_F(Parts, MakeTheWholeImage) {
   expect_stitched({"--accel", "tiles", "--background", "transparent", "--spp", "4"}, ".png");
+  expect_stitched({}, ".exr");
   expect_stitched({"--accel", "tiles", "--shadows", "--aov", "color,Z,N,P,patch"}, ".exr");
   expect_stitched({"--accel", "bvh", "--spp", "4", "--surface", "sphere"}, ".exr");
   expect_stitched({"--accel", "list", "--preset", "thesis"}, ".exr");
@@ -167,14 +218,30 @@ TEST_F(Parts, AreOfOneImage) {
   };
   const std::string left = part("left.exr", "0,0,16,24");
   const std::string right = part("right.exr", "17,0,15,24");
-  expect_refused({left}, 3, "no part has the pixel (16, 0)");
-  expect_refused({left, right}, 3, "no part has the pixel (16, 0)");
+  expect_refused({left}, 3, "left.exr: neither it nor another part has the pixel (16, 0)");
+  expect_refused({left, right}, 3, "left.exr: neither it nor another part has the pixel (16, 0)");
   expect_refused({left, part("other.exr", "16,0,16,24", {"--fov", "30"})}, 3, "with another ");
   expect_refused({left, part("z.exr", "16,0,16,24", {"--aov", "Z"})}, 3, "with another aov");
   expect_refused({left, part("a.png", "16,0,16,24")}, 2, "a.png: is not of the format of");
   expect_refused({left, folder_ / "none.exr"}, 3, "none.exr");
   expect_refused({left, folder_ / "x.exr"}, 2, "are the same file");
   EXPECT_EQ(run_trisect({"stitch", folder_ / "a.png", "-o", folder_ / "x.pfm"}).exit_code, 2);
+  // One that says that its image is larger than there is memory for.
+  Frame small;
+  small.resize(4, 4, false);
+  ImageContents contents;
+  contents.attributes = {{"size", std::string("4000000000x4000000000")},
+                         {"tile", std::string("0,0,4,4")}};
+  save_image(small, folder_ / "huge.png", contents);
+  contents.place = FramePlace{0, 0, 200000, 200000};
+  save_image(small, folder_ / "huge.exr", contents);
+  for (const char* name : {"huge.png", "huge.exr"}) {
+    const std::string whole_name = std::string("whole") + (folder_ / name).extension().string();
+    const test::ProgramRun huge =
+        run_trisect({"stitch", folder_ / name, "-o", folder_ / whole_name});
+    EXPECT_EQ(huge.exit_code, 3) << huge.err;
+    EXPECT_NE(huge.err.find("of more than 16384 pixels a side"), std::string::npos) << huge.err;
+  }
   // A picture that does not say where it belongs.
   const test::ProgramRun whole = run_trisect({"compare", left, left, "--diff", folder_ / "d.png"});
   ASSERT_EQ(whole.exit_code, 0) << whole.err;

@@ -84,6 +84,18 @@ TEST(FrameComparison, TellsOfHitsOnlyWhereImagesDo) {
   EXPECT_NE(to_text(compare(a, a)).find("11 hit, 0 hit mismatches"), std::string::npos);
 }
 
+TEST(ComparisonPicture, SaysThatADifferenceIsNotFinite) {
+  const Frame a = grey(4, 3);
+  Frame b = a;
+  EXPECT_EQ(comparison_scale(a, b), "no difference");
+  b.colors[0].x = 1.0F;
+  EXPECT_EQ(comparison_scale(a, b), "128 of 255, x2");
+  b.colors[5].x = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(comparison_scale(a, b), "128 of 255, x2, some not finite");
+  b.colors[6].x = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(comparison_scale(a, b), "128 of 255, x2, some not finite");
+}
+
 // Letters are drawn, and what does not fit into a frame is left out.
 TEST(ComparisonPicture, HasAKey) {
   for (const uint32_t side : {1U, 7U, 300U}) {

@@ -7,6 +7,8 @@
 #include <ImfStandardAttributes.h>
 
 #include <cstddef>
+#include <cstdint>
+#include <numeric>
 
 namespace trisect::test {
 
@@ -52,6 +54,19 @@ std::map<std::string, std::string> exr_channels(const std::filesystem::path& pat
     names[channel.name()] = type == Imf::FLOAT ? "float" : type == Imf::UINT ? "uint" : "half";
   }
   return names;
+}
+
+double exr_sum(const std::filesystem::path& path, const std::string& channel) {
+  Imf::InputFile file(path.c_str());
+  const Imath::Box2i box = file.header().dataWindow();
+  const auto width = static_cast<std::size_t>(box.max.x - box.min.x + 1);
+  std::vector<uint32_t> numbers(width * static_cast<std::size_t>(box.max.y - box.min.y + 1));
+  Imf::FrameBuffer slices;
+  slices.insert(channel, Imf::Slice(Imf::UINT, reinterpret_cast<char*>(numbers.data()),
+                                    sizeof(uint32_t), sizeof(uint32_t) * width));
+  file.setFrameBuffer(slices);
+  file.readPixels(box.min.y, box.max.y);
+  return std::accumulate(numbers.begin(), numbers.end(), 0.0);
 }
 
 std::vector<float> exr_chromaticities(const std::filesystem::path& path) {
