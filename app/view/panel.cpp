@@ -114,6 +114,19 @@ void choose_shading(Settings& settings) {
   }
 }
 
+// What is behind it. A window shows what is transparent as black.
+void choose_background(RenderOptions& render) {
+  uint background = render.background ? 1U + static_cast<uint>(*render.background) : 0U;
+  choose("background", background, std::array{"by shading", "sky", "colour", "transparent"});
+  render.background =
+      background == 0U ? std::nullopt : std::optional(static_cast<Background>(background - 1U));
+  if (render.background != Background::color) return;
+  glm::vec3 color(render.background_color);
+  if (ImGui::ColorEdit3("behind", &color.x)) {
+    render.background_color = glm::dvec3(glm::clamp(color, 0.0F, 1.0F));
+  }
+}
+
 void choose_light(Settings& settings) {
   glm::dvec3 light = settings.render.light.value_or(glm::dvec3(0.35, 0.8, 0.5));
   bool changed = slide("light x", light.x, -1.0, 1.0, "%.2f");
@@ -225,6 +238,7 @@ Requests build_panel(Settings& settings, const Facts& facts) {
   ImGui::Separator();
   choose_surface(settings, facts);
   choose_shading(settings);
+  choose_background(settings.render);
   choose_light(settings);
   ImGui::Checkbox("orbit", &settings.orbit);
   ImGui::Separator();

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <vector>
 
 #include "app/base/interval.h"
 #include "app/dispatch/kernel_float.h"
@@ -238,6 +240,22 @@ TEST(ProjectedSubpatch, HoldsTheImageOfTheSurface) {
   EXPECT_GT(points, 10000U);
   // The box is no larger than it must be.
   EXPECT_LT(tightest, 0.5);
+}
+
+// The bake says how many triangles are done, all of them at the end, and ends where it is told to.
+TEST(SubpatchBounds, TellHowManyAreMade) {
+  const Mesh mesh = test::load_asset("sphere-320");
+  const SurfaceChoice choice{SURFACE_PHONG, 0.65, SHELL_NORMAL};
+  std::vector<uint32_t> told;
+  const auto scene = bake_with_subpatches(mesh, choice, [&](uint32_t done) {
+    told.push_back(done);
+    return true;
+  });
+  ASSERT_TRUE(scene);
+  EXPECT_EQ(scene->subpatches.size(), bake_with_subpatches(mesh, choice).subpatches.size());
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_EQ(told.back(), 320U);
+  EXPECT_FALSE(bake_with_subpatches(mesh, choice, [](uint32_t) { return false; }));
 }
 
 }  // namespace

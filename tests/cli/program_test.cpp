@@ -23,6 +23,7 @@ namespace {
 
 using test::Program;
 using test::run_trisect;
+using Words = std::vector<std::string>;
 
 TEST_F(Program, RendersAPicture) {
   const test::ProgramRun run = render();
@@ -292,6 +293,29 @@ TEST_F(Program, IsQuietIfItIsTold) {
   const test::ProgramRun wrong = run_trisect({"info", "-q", folder_ / "none.obj"});
   EXPECT_EQ(wrong.exit_code, 3);
   EXPECT_NE(wrong.err, "");
+}
+
+// What each step took, apart from what a program reads.
+TEST_F(Program, SaysMoreIfItIsTold) {
+  const test::ProgramRun run = render({"--verbose", "--stats", "-", "--accel", "bvh"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(nlohmann::json::accept(run.out)) << run.out;
+  for (const char* part : {"read in ", "SHA-256 ", "baked in ", "subpatches", "made a tree of ",
+                           "accel bvh, as asked for"}) {
+    EXPECT_NE(run.err.find(part), std::string::npos) << part << run.err;
+  }
+}
+
+// A model that cannot be read is found before the first is measured.
+TEST_F(Program, ReadsAllModelsBeforeItMeasures) {
+  for (const Words& command : {Words{"accuracy"}, Words{"bench", "speed"}}) {
+    Words words = command;
+    words.insert(words.end(), {test::asset_path("cube"), folder_ / "none.obj"});
+    const test::ProgramRun run = run_trisect(words);
+    EXPECT_EQ(run.exit_code, 3) << run.err;
+    EXPECT_NE(run.err.find("none.obj"), std::string::npos) << run.err;
+    EXPECT_EQ(run.out, "") << command.back();
+  }
 }
 
 TEST_F(Program, MakesTheFoldersOfItsOutputs) {

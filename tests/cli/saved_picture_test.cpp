@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "app/cli/model_sha256.h"
+#include "app/cli/options.h"
 #include "app/mesh/model_file.h"
 #include "app/picture/image_file.h"
 #include "app/picture/image_reader.h"
@@ -202,7 +204,8 @@ TEST_F(SavedPictures, HoldTheOutputsThatAreAskedFor) {
   // What is asked for is counted.
   EXPECT_EQ(said_by(folder_ / "a.exr").at("evals"), "1");
   ASSERT_EQ(render({"--aov", "color,Z,N,G,patch,uv,evals"}, "a.exr").exit_code, 0);
-  EXPECT_GT(test::exr_sum(folder_ / "a.exr", "evals"), 0.0);
+  const std::vector<double> evals = test::exr_channel(folder_ / "a.exr", "evals");
+  EXPECT_GT(*std::max_element(evals.begin(), evals.end()), 0.0);
   std::filesystem::remove(folder_ / "a.exr");
   expect_complaint(render({"--aov", "depth"}, "a.exr"), 2, "'depth' is not one of: color, Z");
   expect_complaint(render({"--aov", ""}, "a.exr"), 2, "--aov");
@@ -210,6 +213,36 @@ TEST_F(SavedPictures, HoldTheOutputsThatAreAskedFor) {
   expect_complaint(render({"--aov", "Z"}, "a.png"), 2, "a PNG holds the colour alone");
   expect_complaint(render({"--aov", "Z,N"}, "a.pfm"), 2, "a PFM holds one of");
   expect_complaint(render({"--aov", "uv"}, "a.pfm"), 2, "a PFM holds one of");
+}
+
+// The sphere surface of a sphere is the unit sphere, and each hit lies on its pixel's ray.
+TEST_F(SavedPictures, HoldPositions) {
+  for (const char* spp : {"1", "4", "9"}) {
+    ASSERT_EQ(
+        render({"--surface", "sphere", "--aov", "P,Z,patch", "--spp", spp}, "a.exr").exit_code, 0);
+    const auto channel = [&](const char* name) {
+      return test::exr_channel(folder_ / "a.exr", name);
+    };
+    const std::vector<double> x = channel("P.X");
+    const std::vector<double> y = channel("P.Y");
+    const std::vector<double> z = channel("P.Z");
+    const std::vector<double> distance = channel("Z");
+    std::map<std::string, std::string> said = said_by(folder_ / "a.exr");
+    const glm::dvec3 eye = parse_triple("eye", said["eye"]);
+    std::size_t hits = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const glm::dvec3 p(x[i], y[i], z[i]);
+      if (distance[i] == 0.0) {
+        EXPECT_EQ(p, glm::dvec3(0.0));
+        continue;
+      }
+      ++hits;
+      // Z, some 3, is rounded to single precision, and so are the three.
+      EXPECT_NEAR(glm::length(p), 1.0, 1e-6) << spp;
+      EXPECT_NEAR(glm::distance(p, eye), distance[i], 1e-6) << spp;
+    }
+    EXPECT_GT(hits, 100U);
+  }
 }
 
 TEST_F(SavedPictures, CarryTheModelsChecksum) {

@@ -8,7 +8,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 
 namespace trisect::test {
 
@@ -56,17 +55,22 @@ std::map<std::string, std::string> exr_channels(const std::filesystem::path& pat
   return names;
 }
 
-double exr_sum(const std::filesystem::path& path, const std::string& channel) {
+std::vector<double> exr_channel(const std::filesystem::path& path, const std::string& channel) {
   Imf::InputFile file(path.c_str());
   const Imath::Box2i box = file.header().dataWindow();
-  const auto width = static_cast<std::size_t>(box.max.x - box.min.x + 1);
-  std::vector<uint32_t> numbers(width * static_cast<std::size_t>(box.max.y - box.min.y + 1));
-  Imf::FrameBuffer slices;
-  slices.insert(channel, Imf::Slice(Imf::UINT, reinterpret_cast<char*>(numbers.data()),
-                                    sizeof(uint32_t), sizeof(uint32_t) * width));
-  file.setFrameBuffer(slices);
-  file.readPixels(box.min.y, box.max.y);
-  return std::accumulate(numbers.begin(), numbers.end(), 0.0);
+  const std::size_t width = static_cast<uint32_t>(box.max.x - box.min.x + 1);
+  const std::size_t count = width * static_cast<uint32_t>(box.max.y - box.min.y + 1);
+  const auto read = [&]<typename Number>(Imf::PixelType type, std::vector<Number> numbers) {
+    Imf::FrameBuffer slices;
+    slices.insert(channel, Imf::Slice(type, reinterpret_cast<char*>(numbers.data()), sizeof(Number),
+                                      sizeof(Number) * width));
+    file.setFrameBuffer(slices);
+    file.readPixels(box.min.y, box.max.y);
+    return std::vector<double>(numbers.begin(), numbers.end());
+  };
+  return file.header().channels()[channel.c_str()].type == Imf::UINT
+             ? read(Imf::UINT, std::vector<uint32_t>(count))
+             : read(Imf::FLOAT, std::vector<float>(count));
 }
 
 std::vector<float> exr_chromaticities(const std::filesystem::path& path) {

@@ -17,8 +17,8 @@ Frame read_exr(const std::filesystem::path& path);
 // The names of a file's channels, each with its type: "float", "uint" or "half".
 std::map<std::string, std::string> exr_channels(const std::filesystem::path& path);
 
-// The sum over all pixels of a channel of unsigned numbers.
-double exr_sum(const std::filesystem::path& path, const std::string& channel);
+// The values of a channel, row by row.
+std::vector<double> exr_channel(const std::filesystem::path& path, const std::string& channel);
 
 // x and y of red, green, blue and white that a file names; empty if it names none.
 std::vector<float> exr_chromaticities(const std::filesystem::path& path);
