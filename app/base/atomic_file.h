@@ -6,11 +6,13 @@
 
 namespace trisect {
 
-// Creates a temporary file beside `target` at once, so that a target that cannot be written is
+// Makes a file in the folder of `target` at once, so that a target that cannot be written is
 // noticed before the work and not after it; commit() moves it into place. Without commit() the
-// destructor removes it. A target that is a symbolic link stays one: the file it leads to is
-// replaced. A file that is replaced keeps its permissions. Not for use from several threads: the
-// constructor reads the process's umask by setting it for a moment.
+// destructor removes it. Where the file system can (O_TMPFILE), it has no name until then, so that
+// a process that is killed leaves nothing; else it is called .trisect- and six letters. A target
+// that is a symbolic link stays one: the file it leads to is replaced. A file that is replaced
+// keeps its permissions. Not for use from several threads: the constructor reads the process's
+// umask by setting it for a moment.
 class AtomicFile {
  public:
   // Throws InputError, naming the target, if no file can be made there or if it is something other
@@ -24,7 +26,7 @@ class AtomicFile {
 
   [[nodiscard]] const std::filesystem::path& target() const { return target_; }
 
-  // The file to write to, until commit().
+  // The file to write to, until commit(), for other processes too.
   [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
 
   // Writes `text` as the whole content. Throws InputError if that fails.
@@ -34,8 +36,12 @@ class AtomicFile {
   void commit();
 
  private:
+  [[nodiscard]] bool has_name() const { return unnamed_ < 0; }
+  [[noreturn]] void fail(int error) const;
+
   std::filesystem::path target_;
   std::filesystem::path temporary_;
+  int unnamed_ = -1;  // the descriptor of a file without a name
 };
 
 }  // namespace trisect

@@ -1,14 +1,25 @@
 #include "app/cli/interrupt.h"
 
 #include <csignal>
+#include <ctime>
 
 namespace trisect {
 namespace {
 
 volatile std::sig_atomic_t signalled = 0;
+timespec first_signal{};
 
-void on_signal(int /*number*/) {
-  signalled = 1;
+// Calls only what is safe in a handler.
+void on_signal(int number) {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  if (signalled == 0) {
+    first_signal = now;
+    signalled = 1;
+  } else if (now.tv_sec > first_signal.tv_sec + 1) {
+    std::signal(number, SIG_DFL);
+    std::raise(number);
+  }
 }
 
 }  // namespace
@@ -16,8 +27,8 @@ void on_signal(int /*number*/) {
 void catch_interrupts() {
   struct sigaction action {};
   action.sa_handler = on_signal;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  for (const int number : {SIGINT, SIGTERM}) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
     struct sigaction inherited {};
     sigaction(number, nullptr, &inherited);
     // Whoever started the program with the signal ignored (nohup) wants it ignored.

@@ -13,7 +13,9 @@ class Interrupted : public std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
-// Installs the handlers: the first SIGINT or SIGTERM is remembered, the second ends the program.
+// Installs the handlers: the first SIGINT, SIGTERM, SIGHUP or SIGQUIT is remembered, one that comes
+// two seconds later ends the program. (Who ends a group of processes may signal twice at once, as
+// timeout does.) A file that becomes larger than allowed (SIGXFSZ) is an error of writing.
 void catch_interrupts();
 
 // True until a signal has come. Long steps of the library ask this to learn whether to go on.

@@ -366,6 +366,37 @@ TEST_F(Program, StopsWhenInterruptedAndLeavesNothing) {
   expect_complaint(run, 130, "interrupted");
 }
 
+// Endings that can be caught, and a file that becomes too large, are told in a sentence and leave
+// nothing.
+TEST_F(Program, LeavesNothingHoweverItEnds) {
+  const std::string render =
+      fmt::format("{} render {} --size 1600x1200 --runs 100000 -o {}", test::program_path(),
+                  test::asset_path("teapot-1000"), (folder_ / "a.png").string());
+  const test::TemporaryFolder logs;
+  const std::string err = logs / "err";
+  for (const auto& [signal, code] : {std::pair("TERM", 130), {"HUP", 130}, {"QUIT", 130}}) {
+    // The shell's own trap for the signal is the default, whatever started the test.
+    const std::string line =
+        fmt::format("timeout --preserve-status -s {} 1.5 {} >/dev/null 2>{}", signal, render, err);
+    EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), code) << signal;
+    EXPECT_EQ(test::content_of(err), "trisect: interrupted\n") << signal;
+    EXPECT_EQ(files(), 0U) << signal;
+  }
+  std::system(fmt::format("timeout -s KILL 1.5 {} >/dev/null 2>{}", render, err).c_str());
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+    EXPECT_TRUE(entry.path().filename().string().starts_with(".trisect-")) << entry.path();
+    std::filesystem::remove(entry.path());
+  }
+  for (const char* name : {"a.png", "a.exr", "a.pfm"}) {
+    const std::string line =
+        fmt::format("ulimit -f 4; {} render {} -o {} >/dev/null 2>{}", test::program_path(),
+                    test::asset_path("cube"), (folder_ / name).string(), err);
+    EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), 3) << name;
+    EXPECT_NE(test::content_of(err).find(name), std::string::npos) << test::content_of(err);
+    EXPECT_EQ(files(), 0U) << name;
+  }
+}
+
 TEST_F(Program, RefusesToOverwriteItsModel) {
   std::filesystem::copy_file(test::asset_path("cube"), folder_ / "model.png");
   const test::ProgramRun run =

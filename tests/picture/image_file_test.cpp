@@ -1,11 +1,14 @@
 #include "app/picture/image_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <png.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <string>
@@ -220,6 +223,49 @@ TEST(AtomicFile, AppearsWholeOrNotAtAll) {
   std::string text;
   std::ifstream(folder / "a.txt") >> text;
   EXPECT_EQ(text, "whole");
+}
+
+// Whether files of that folder can be without a name.
+bool has_unnamed_files(const std::filesystem::path& folder) {
+  const int file = open(folder.c_str(), O_TMPFILE | O_RDWR, 0600);
+  if (file >= 0) close(file);
+  return file >= 0;
+}
+
+// A process that is killed while it writes leaves nothing behind.
+TEST(AtomicFile, HasNoNameUntilItIsWhole) {
+  const test::TemporaryFolder folder;
+  const auto names = [&] {
+    std::vector<std::string> found;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+      found.push_back(entry.path().filename());
+    }
+    return found;
+  };
+  for (const char* text : {"first", "second"}) {
+    const std::vector<std::string> before = names();
+    AtomicFile file(folder / "a.txt");
+    file.write(text);
+    if (has_unnamed_files(folder.path())) {
+      EXPECT_EQ(names(), before);
+    }
+    file.commit();
+    EXPECT_EQ(names(), std::vector<std::string>{"a.txt"});
+    EXPECT_EQ(test::content_of(folder / "a.txt"), text);
+  }
+}
+
+// As long as a name can be.
+TEST(AtomicFile, TakesLongNames) {
+  const test::TemporaryFolder folder;
+  const std::string name(255, 'a');
+  for (int i = 0; i < 2; ++i) {
+    AtomicFile file(folder / name);
+    file.write("text");
+    file.commit();
+    EXPECT_EQ(test::content_of(folder / name), "text");
+  }
+  EXPECT_THROW(AtomicFile(folder / (name + "a")).commit(), InputError);
 }
 
 TEST(AtomicFile, KeepsLinksAndPermissions) {
