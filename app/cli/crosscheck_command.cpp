@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -30,12 +31,23 @@ Tolerance tolerance_between(Backend a, Backend b, GlPath gl_path) {
 
 int crosscheck(const CrosscheckOptions& options) {
   const RenderOptions& render = options.render;
+  const bool has_vulkan = std::find(options.backends.begin(), options.backends.end(),
+                                    Backend::vulkan) != options.backends.end();
+  if (render.accel && *render.accel != Accel::list && !has_vulkan) {
+    throw UsageError(
+        fmt::format("--accel {}: none of the back ends is vulkan.", accel_name(*render.accel)));
+  }
   begin_outputs({render.model}, {options.json, options.diff});
   ComparisonFiles files(options.json, options.diff);
   LoadedScene loaded = load_scene(render);
   std::vector<TraceResult> results;
+  std::vector<Accel> accels;
   for (const Backend backend : options.backends) {
-    const Accel accel = accel_for(render, backend, loaded.scene);
+    // The others trace every patch.
+    RenderOptions own = render;
+    if (backend != Backend::vulkan) own.accel = Accel::list;
+    const Accel accel = accel_for(own, backend, loaded.scene);
+    accels.push_back(accel);
     if (needs_bvh(accel, render.shadows)) add_bvh(loaded);
     results.push_back(trace_showing_progress(
         {backend, render.gl_path, render.device, false, 1, false, cache_folder()}, loaded.scene,
@@ -52,7 +64,8 @@ int crosscheck(const CrosscheckOptions& options) {
   for (std::size_t i = 0; i < results.size(); ++i) {
     json["backends"].push_back({{"backend", backend_name(options.backends[i])},
                                 {"device", results[i].device},
-                                {"driver", results[i].driver}});
+                                {"driver", results[i].driver},
+                                {"accel", accel_name(accels[i])}});
   }
   bool kept = true;
   for (std::size_t i = 0; i < results.size(); ++i) {

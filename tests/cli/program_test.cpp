@@ -135,6 +135,25 @@ TEST_F(Program, PicksAnAccelerationAndSaysWhich) {
   EXPECT_EQ(accel({"--backend", "cpu"}), "list");
 }
 
+// The acceleration is Vulkan's, whatever it is compared with.
+TEST_F(Program, ComparesEveryAccelerationWithOtherBackEnds) {
+  const auto crosscheck = [](const Words& options) {
+    Words words{"crosscheck", test::asset_path("cube"), "--size", "32x24"};
+    words.insert(words.end(), options.begin(), options.end());
+    return run_trisect(words);
+  };
+  for (const char* accel : {"list", "tiles", "bvh"}) {
+    const test::ProgramRun run =
+        crosscheck({"--accel", accel, "--backends", "vulkan,opengl,cpu", "--json", "-"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const auto backends = nlohmann::json::parse(run.out)["backends"];
+    EXPECT_EQ(backends[0]["accel"], accel);
+    EXPECT_EQ(backends[1]["accel"], "list");
+  }
+  expect_complaint(crosscheck({"--accel", "bvh", "--backends", "opengl,cpu"}), 2,
+                   "none of the back ends is vulkan");
+}
+
 TEST_F(Program, LightsFromADirection) {
   expect_complaint(render({"--light", "0,0,0"}), 2, "no direction");
   expect_complaint(render({"--shading", "shiny"}), 2, "--shading: 'shiny' is not one of: plain");
