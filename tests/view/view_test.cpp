@@ -235,6 +235,7 @@ TEST_F(View, IsMinimisedRestoredAndClosed) {
   });
   EXPECT_FALSE(display_.shows(name));
   wait_until([&] {
+    display_.xdotool("windowmap " + window);
     display_.xdotool("windowactivate " + window);
     return display_.shows(name);
   });
