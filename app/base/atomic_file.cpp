@@ -13,19 +13,16 @@
 #include <utility>
 
 #include "app/base/error.h"
+#include "app/base/folder_of.h"
 
 namespace trisect {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path folder_of_file(const fs::path& file) {
-  return file.has_parent_path() ? file.parent_path() : fs::path(".");
-}
-
-// The name in the folder of a file that a named temporary one has; XXXXXX stands for six letters.
+// The name of a temporary file in the target's folder, as mkstemp() takes it.
 std::string temporary_name(const fs::path& target) {
-  return (folder_of_file(target) / ".trisect-XXXXXX").string();
+  return (folder_of(target) / ".trisect-XXXXXX").string();
 }
 
 // A descriptor of a file without a name in that folder; -1 where there cannot be any.
@@ -53,7 +50,7 @@ AtomicFile::AtomicFile(const fs::path& target) : target_(target) {
   if (fs::exists(status) && !fs::is_regular_file(status)) {
     throw InputError(target_.string() + ": cannot be written: it is not a regular file.");
   }
-  unnamed_ = open_unnamed(folder_of_file(target_));
+  unnamed_ = open_unnamed(folder_of(target_));
   int file = unnamed_;
   if (has_name()) {
     std::string name = temporary_name(target_);

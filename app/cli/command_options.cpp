@@ -73,11 +73,22 @@ void add_device(CLI::App& command, std::string& device) {
 }
 
 void add_table_json(CLI::App& command, std::string& json) {
-  command.add_option("--json", json, "Write the table as JSON")
+  add_json(command, json, "Write the table as JSON");
+}
+
+void add_json(CLI::App& command, std::string& json, const std::string& what) {
+  command.add_option("--json", json, what)
       ->group(option_group::kOutput)
       ->check(not_empty())
       ->check(suggest_files({".json"}))
       ->type_name("FILE");
+}
+
+void add_validation(CLI::App& command, bool& validation) {
+  command
+      .add_flag("--validation", validation,
+                "Run under the Vulkan validation layer, fail on any message")
+      ->group(option_group::kTracing);
 }
 
 }  // namespace trisect

@@ -57,4 +57,10 @@ void add_device(CLI::App& command, std::string& device);
 // Adds --json to a command that prints a table.
 void add_table_json(CLI::App& command, std::string& json);
 
+// Adds --json. what: its help.
+void add_json(CLI::App& command, std::string& json, const std::string& what);
+
+// Adds --validation.
+void add_validation(CLI::App& command, bool& validation);
+
 }  // namespace trisect

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "app/bake/bvh.h"
@@ -93,11 +94,14 @@ TraceSettings settings_of(const RenderOptions& options, const Mesh& mesh, const 
 
 LoadedScene load_scene(const RenderOptions& options) {
   LoadedScene loaded{};
+  std::vector<std::filesystem::path> files;
   const BuiltMesh built = timed("reading " + options.model, loaded.load_ms, [&] {
     PolygonModel model = read_model(options.model);
-    loaded.model_sha256 = model_sha256(options.model, model.files);
+    files = model.files;
     return build_mesh(std::move(model), options.model, options.mesh);
   });
+  // Not in the time that reading takes.
+  loaded.model_sha256 = model_sha256(options.model, files);
   detail("read in {:.1f} ms, SHA-256 {}\n", loaded.load_ms, loaded.model_sha256);
   say("{}: {}\n", options.model, describe(built.report));
   const SurfaceChoice choice{options.surface, options.alpha, options.shell};
@@ -132,12 +136,15 @@ void expect_readable(const std::vector<std::string>& models) {
 
 TraceResult trace_showing_progress(const TraceRequest& request, const BakedScene& scene,
                                    const TraceParams& params, const KernelChoice& choice) {
-  constexpr double steps = 1000.0;
-  ProgressLine line("rendering", static_cast<uint64_t>(steps));
-  return finished(trace_scene(request, scene, params, choice, [&](double done) {
+  ProgressLine line("rendering", kTraceSteps);
+  return finished(trace_scene(request, scene, params, choice, shown_on(line)));
+}
+
+TraceProgress shown_on(ProgressLine& line) {
+  return [&line](double done) {
     // Vulkan and OpenGL report no progress: `done` stays 0.
-    return done > 0.0 ? line.show(static_cast<uint64_t>(done * steps)) : not_interrupted();
-  }));
+    return done > 0.0 ? line.show(static_cast<uint64_t>(done * kTraceSteps)) : not_interrupted();
+  };
 }
 
 void add_bvh(LoadedScene& loaded) {

@@ -7,6 +7,7 @@
 
 #include "app/bake/bake.h"
 #include "app/cli/options.h"
+#include "app/cli/progress_line.h"
 #include "app/dispatch/accel.h"
 #include "app/dispatch/trace_settings.h"
 #include "app/trace/trace_scene.h"
@@ -48,6 +49,10 @@ void expect_readable(const std::vector<std::string>& models);
 // trace_scene() with a progress line on the terminal. Throws Interrupted if the user stops it.
 TraceResult trace_showing_progress(const TraceRequest& request, const BakedScene& scene,
                                    const TraceParams& params, const KernelChoice& choice);
+
+// Shows on the line, of kTraceSteps, how much of a frame is traced.
+constexpr uint64_t kTraceSteps = 1000;
+TraceProgress shown_on(ProgressLine& line);
 
 // Builds the tree over the scene's subpatches and measures the time.
 void add_bvh(LoadedScene& loaded);

@@ -168,10 +168,7 @@ ImagePart parse_part(const std::string& option, const std::string& text, uint32_
     throw UsageError(
         fmt::format("{}: '{}' is not X,Y,WIDTH,HEIGHT such as 0,0,100,50.", option, text));
   }
-  const auto fits = [](uint32_t first, uint32_t size, uint32_t whole) {
-    return size >= 1 && size <= whole && first <= whole - size;
-  };
-  if (!fits(part.x, part.width, image_width) || !fits(part.y, part.height, image_height)) {
+  if (!part.is_in(image_width, image_height)) {
     throw UsageError(fmt::format("{}: {} is not in an image of {}x{}.", option, text, image_width,
                                  image_height));
   }

@@ -48,7 +48,13 @@ class Renderer {
  public:
   Renderer(const RenderOptions& options, const PictureContents& picture, const LoadedScene& loaded,
            Accel accel)
-      : options_(options), picture_(picture), loaded_(loaded), accel_(accel) {}
+      : options_(options),
+        picture_(picture),
+        loaded_(loaded),
+        accel_(accel),
+        request_{options.backend,    options.gl_path,          options.device,
+                 options.validation, options.runs.value_or(1), options.runs.has_value(),
+                 cache_folder()} {}
 
   // Renders a frame into its files, which appear when both are whole. step: for the progress line.
   // Returns what is to be said of it. Throws Interrupted.
@@ -58,14 +64,15 @@ class Renderer {
     Output image(shot.image);
     OptionalOutput stats(shot.stats);
     const TraceParams params = make_params(loaded_.scene, settings);
-    if (!tracer_) tracer_ = tracer_for(params);
+    if (!tracer_) {
+      tracer_ = make_tracer(
+          request_, loaded_.scene, params.width, params.height,
+          {options_.solver, picture_.needs_aovs(), options_.evals, accel_, options_.shadows});
+    }
 
     RenderStatistics statistics;
-    ProgressLine line(step, kProgressSteps);
-    if (options_.runs && is_device(options_.backend)) trace(params, line);  // a warm-up
-    for (uint32_t run = 0; run < options_.runs.value_or(1); ++run) {
-      statistics.frames.push_back(trace(params, line));
-    }
+    ProgressLine line(step, kTraceSteps);
+    statistics.frames = finished(trace_runs(*tracer_, request_, params, frame_, shown_on(line)));
     frame_ = averaged(std::move(frame_), samples_across(options_.spp));
     statistics.source = {settings, accel_, loaded_.model_sha256, tracer_->device(),
                          tracer_->driver()};
@@ -77,7 +84,7 @@ class Renderer {
     statistics.bake_ms = loaded_.bake_ms;
     statistics.bvh_ms = loaded_.bvh_ms;
     statistics.upload_ms = tracer_->upload_ms();
-    if (options_.turntable || !options_.camera_path.empty()) statistics.frame = shot.frame;
+    statistics.frame = shot.frame;
 
     write_image(frame_, format, image.file(), picture_.of(frame_, options_, statistics.source));
     stats.write(to_json(options_, statistics));
@@ -96,48 +103,32 @@ class Renderer {
   }
 
  private:
-  static constexpr uint64_t kProgressSteps = 1000;
-
-  [[nodiscard]] std::unique_ptr<SceneTracer> tracer_for(const TraceParams& params) const {
-    TraceRequest request;
-    request.backend = options_.backend;
-    request.gl_path = options_.gl_path;
-    request.device = options_.device;
-    request.validation = options_.validation;
-    request.pipeline_folder = cache_folder();
-    return make_tracer(
-        request, loaded_.scene, params.width, params.height,
-        {options_.solver, picture_.needs_aovs(), options_.evals, accel_, options_.shadows});
-  }
-
-  FrameTime trace(const TraceParams& params, ProgressLine& line) {
-    return finished(tracer_->render(params, frame_, [&](double done) {
-      // Vulkan and OpenGL report no progress: `done` stays 0.
-      return done > 0.0 ? line.show(static_cast<uint64_t>(done * kProgressSteps))
-                        : not_interrupted();
-    }));
-  }
-
   const RenderOptions& options_;
   const PictureContents& picture_;
   const LoadedScene& loaded_;
   Accel accel_;
+  TraceRequest request_;
   std::unique_ptr<SceneTracer> tracer_;
   Frame frame_;
 };
+
+// The settings with the camera of a frame.
+TraceSettings settings_of(const Shot& shot, const Sequence& sequence, const LoadedScene& loaded) {
+  TraceSettings settings = loaded.settings;
+  settings.camera = sequence.camera(shot, settings.camera);
+  return settings;
+}
 
 // Throws InputError, naming the path's file, if the camera of a frame is none.
 void expect_cameras(const RenderOptions& options, const Sequence& sequence,
                     const LoadedScene& loaded) {
   for (const Shot& shot : sequence.shots()) {
-    TraceSettings settings = loaded.settings;
-    settings.camera = sequence.camera(shot, settings.camera);
     try {
-      make_params(loaded.scene, settings);
+      make_params(loaded.scene, settings_of(shot, sequence, loaded));
     } catch (const UsageError&) {
       throw InputError(
           fmt::format("{}: in frame {} the camera looks nowhere, or along its up vector.",
-                      options.camera_path, shot.frame));
+                      options.camera_path, *shot.frame));
     }
   }
 }
@@ -149,8 +140,7 @@ void render_path(const RenderOptions& options, const Sequence& sequence, const L
   std::size_t rendered = 0;
   std::size_t left = sequence.shots().size();
   for (const Shot& shot : sequence.shots()) {
-    TraceSettings settings = loaded.settings;
-    settings.camera = sequence.camera(shot, settings.camera);
+    const TraceSettings settings = settings_of(shot, sequence, loaded);
     const PictureSource source{settings, accel, loaded.model_sha256, "", ""};
     stop_if_interrupted();
     if (options.resume && is_finished(shot, attributes_of(options, source))) {
@@ -164,7 +154,7 @@ void render_path(const RenderOptions& options, const Sequence& sequence, const L
                                                                static_cast<double>(left) /
                                                                static_cast<double>(rendered)));
     const RenderStatistics statistics =
-        renderer.render(shot, settings, fmt::format("frame {}{}", shot.frame, time_left));
+        renderer.render(shot, settings, fmt::format("frame {}{}", *shot.frame, time_left));
     say("{}: {} pixels hit, gpu {:.1f} ms, wall {:.1f} ms\n", shot.image, statistics.hits,
         statistics.frames[0].gpu_ms, statistics.frames[0].wall_ms);
     ++rendered;

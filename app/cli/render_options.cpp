@@ -29,8 +29,7 @@ void add_render_options(CLI::App& command, RenderOptions& options, RenderText& t
   command
       .add_option("-o,--output", options.output,
                   "Image to write: .png (8-bit sRGB), .exr (linear float, with AOVs) or .pfm "
-                  "(float, one of "
-                  "them); - writes PNG to standard output")
+                  "(float, one of them); - writes PNG to standard output")
       ->group(option_group::kOutput)
       ->required()
       ->check(suggest_files({".png", ".exr", ".pfm"}))
@@ -75,10 +74,7 @@ void add_render_options(CLI::App& command, RenderOptions& options, RenderText& t
       ->type_name("A:B");
   command.add_flag("--resume", options.resume, "Leave out the frames whose files are there")
       ->group(option_group::kSequence);
-  command
-      .add_flag("--validation", options.validation,
-                "Run under the Vulkan validation layer, fail on any message")
-      ->group(option_group::kTracing);
+  add_validation(command, options.validation);
   add_spp(command, options.spp);
   command
       .add_option("--runs", options.runs,
@@ -137,7 +133,7 @@ RenderOptions saved_options(const std::string& file) {
 void give_way(const CLI::App& command, const RenderText& given, RenderOptions& options) {
   const SceneText& scene = given.scene;
   const bool shadows_given = command.count("--shadows") > 0;
-  const bool unlit = scene.shading && *scene.shading != "plain" && *scene.shading != "grid";
+  const bool unlit = scene.shading && !is_lit(shading_of(*scene.shading));
   if (unlit) {
     options.color.reset();
     if (options.background == Background::sky) options.background.reset();

@@ -20,13 +20,6 @@ void add_gl_path(CLI::App& command, std::optional<std::string>& text) {
       ->type_name("NAME");
 }
 
-uint shading_of(const std::string& name) {
-  for (uint shading = SHADING_PLAIN; shading < SHADING_DEPTH; ++shading) {
-    if (name == shading_name(shading)) return shading;
-  }
-  return SHADING_DEPTH;
-}
-
 // Nothing for "auto".
 std::optional<Accel> accel_of(const std::string& name) {
   for (const Accel accel : {Accel::list, Accel::tiles, Accel::bvh, Accel::rayquery}) {
@@ -36,6 +29,13 @@ std::optional<Accel> accel_of(const std::string& name) {
 }
 
 }  // namespace
+
+uint shading_of(const std::string& name) {
+  for (uint shading = SHADING_PLAIN; shading < SHADING_DEPTH; ++shading) {
+    if (name == shading_name(shading)) return shading;
+  }
+  return SHADING_DEPTH;
+}
 
 void add_scene(CLI::App& command, RenderOptions& options, SceneText& text) {
   // As for the options of add_view, the last one counts.

@@ -29,6 +29,9 @@ struct SceneText {
   std::optional<std::string> color;
 };
 
+// The constant for a name of --shading, which one_of() has checked.
+uint shading_of(const std::string& name);
+
 // Adds MODEL, which is required, the options of add_view, --gl-path and --device. `options` and
 // `text` must outlive the parse; `options` holds the defaults.
 void add_scene(CLI::App& command, RenderOptions& options, SceneText& text);

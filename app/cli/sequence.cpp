@@ -52,7 +52,7 @@ Sequence::Sequence(const RenderOptions& options) : path_(path_of(options)) {
   if (!path_) {
     if (options.frames) throw UsageError("--frames: without --turntable or --camera-path.");
     if (options.resume) throw UsageError("--resume: without --turntable or --camera-path.");
-    shots_.push_back({0, options.output, options.stats});
+    shots_.push_back({std::nullopt, options.output, options.stats});
     return;
   }
   if (options.runs) throw UsageError("--runs: one frame is timed, not those of a sequence.");
@@ -79,11 +79,7 @@ bool is_finished(const Shot& shot, const std::vector<ImageAttribute>& attributes
   if (!is_there(shot.image) || !is_there(shot.stats)) return false;
   if (image_format(shot.image) == ImageFormat::pfm) return true;
   if (!is_whole_image(shot.image)) return false;
-  ImageTexts wanted;
-  for (const ImageAttribute& attribute : attributes) {
-    wanted.emplace_back(attribute.name, value_text(attribute));
-  }
-  const std::string name = difference_between(read_attributes(shot.image), wanted);
+  const std::string name = difference_between(read_attributes(shot.image), texts_of(attributes));
   if (name.empty()) return true;
   throw InputError(fmt::format(
       "{}: is there already, with another {}; without --resume it is replaced.", shot.image, name));

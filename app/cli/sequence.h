@@ -13,7 +13,7 @@ namespace trisect {
 
 // A frame that is to be rendered.
 struct Shot {
-  uint32_t frame;
+  std::optional<uint32_t> frame;  // of a path
   std::string image;
   std::string stats;  // empty: not wanted
 };
@@ -34,7 +34,7 @@ class Sequence {
 
   // The camera of a frame; start: without the path.
   [[nodiscard]] Camera camera(const Shot& shot, const Camera& start) const {
-    return path_ ? path_->at(shot.frame, start) : start;
+    return path_ ? path_->at(*shot.frame, start) : start;
   }
 
  private:

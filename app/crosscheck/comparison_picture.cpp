@@ -54,10 +54,7 @@ void draw_key(const std::string& scale, uint32_t top, Frame& picture) {
   }
 }
 
-}  // namespace
-
-std::string comparison_scale(const Frame& a, const Frame& b) {
-  const ColorDifference difference = color_difference(a, b);
+std::string scale_of(const ColorDifference& difference) {
   const double white = difference.largest_number;
   const std::string scale = white > 0.0
                                 ? fmt::format("{:.3g} of 255, x{:.3g}", white, 255.0 / white)
@@ -65,9 +62,16 @@ std::string comparison_scale(const Frame& a, const Frame& b) {
   return std::isfinite(difference.largest) ? scale : scale + ", some not finite";
 }
 
+}  // namespace
+
+std::string comparison_scale(const Frame& a, const Frame& b) {
+  return scale_of(color_difference(a, b));
+}
+
 Frame comparison_picture(const Frame& a, const Frame& b) {
   expect_same_size(a, b);
-  const double largest = color_difference(a, b).largest_number;
+  const ColorDifference difference = color_difference(a, b);
+  const double largest = difference.largest_number;
   const double gain = largest > 0.0 ? 255.0 / largest : 0.0;
   Frame picture;
   picture.resize(2 * a.width, 2 * a.height + kComparisonKeyHeight, false);
@@ -86,7 +90,7 @@ Frame comparison_picture(const Frame& a, const Frame& b) {
       at(1, 1) = mask_color(a, b, i);
     }
   }
-  draw_key(comparison_scale(a, b), 2 * a.height, picture);
+  draw_key(scale_of(difference), 2 * a.height, picture);
   return picture;
 }
 

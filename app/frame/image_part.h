@@ -16,6 +16,14 @@ struct ImagePart {
   uint32_t height = 0;
 
   bool operator==(const ImagePart&) const = default;
+
+  // Whether it has pixels, all of them in an image of that size.
+  [[nodiscard]] bool is_in(uint32_t image_width, uint32_t image_height) const {
+    const auto fits = [](uint32_t first, uint32_t size, uint32_t whole) {
+      return size >= 1 && size <= whole && first <= whole - size;
+    };
+    return fits(x, width, image_width) && fits(y, height, image_height);
+  }
 };
 
 // Where a frame is in the image that it is, or is a part of.

@@ -76,10 +76,6 @@ std::string read_bytes(const std::filesystem::path& path) {
   return bytes;
 }
 
-std::filesystem::path folder_of(const std::filesystem::path& path) {
-  return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-}
-
 std::optional<std::filesystem::path> file_below(const std::filesystem::path& folder,
                                                 const std::filesystem::path& name) {
   if (name.empty() || name.is_absolute()) return std::nullopt;

@@ -11,9 +11,6 @@ namespace trisect {
 // it cannot be read, is a directory, or is damaged.
 std::string read_bytes(const std::filesystem::path& path);
 
-// Where a file is: "." for one without a folder.
-std::filesystem::path folder_of(const std::filesystem::path& path);
-
 // The file that another one names, as `name`, relative to the folder that it is in. Nothing if that
 // is not in the folder or below it, links followed.
 std::optional<std::filesystem::path> file_below(const std::filesystem::path& folder,

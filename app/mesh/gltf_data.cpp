@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "app/base/error.h"
+#include "app/base/folder_of.h"
 #include "app/mesh/file_bytes.h"
 
 namespace trisect::gltf {

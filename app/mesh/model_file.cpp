@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/base/error.h"
+#include "app/base/folder_of.h"
 #include "app/mesh/assimp_file.h"
 #include "app/mesh/file_bytes.h"
 #include "app/mesh/gltf_file.h"

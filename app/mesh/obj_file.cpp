@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "app/base/error.h"
+#include "app/base/folder_of.h"
 #include "app/mesh/file_bytes.h"
 #include "app/mesh/obj_materials.h"
 #include "app/mesh/obj_text.h"

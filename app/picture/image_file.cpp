@@ -30,6 +30,14 @@ std::string value_text(const ImageAttribute& attribute) {
   return fmt::format("{},{},{}", vector.x, vector.y, vector.z);
 }
 
+ImageTexts texts_of(const std::vector<ImageAttribute>& attributes) {
+  ImageTexts texts;
+  for (const ImageAttribute& attribute : attributes) {
+    texts.emplace_back(attribute.name, value_text(attribute));
+  }
+  return texts;
+}
+
 void write_image(const Frame& frame, ImageFormat format, const AtomicFile& file,
                  const ImageContents& contents) {
   switch (format) {

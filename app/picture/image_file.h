@@ -56,6 +56,8 @@ ImageFormat image_format(const std::filesystem::path& path);
 // The attribute's value as text; numbers are as short as they can be to be read back the same.
 std::string value_text(const ImageAttribute& attribute);
 
+ImageTexts texts_of(const std::vector<ImageAttribute>& attributes);
+
 // Writes 8-bit sRGB, a part of an image with its offset (oFFs). With alpha the colours are those
 // that its pixels' parts with a hit have, where the others are black (Background::none). Throws
 // InputError, naming the file.

@@ -9,18 +9,11 @@
 #include <ImfStringAttribute.h>
 #include <ImfVecAttribute.h>
 #include <fmt/format.h>
-#include <png.h>
 
 #include <algorithm>
-#include <cctype>
-#include <cerrno>
-#include <csetjmp>
 #include <cstddef>
-#include <cstdio>
 #include <exception>
 #include <string>
-#include <string_view>
-#include <system_error>
 
 #include "app/base/error.h"
 #include "app/base/srgb.h"
@@ -160,44 +153,6 @@ ImageTexts exr_attributes(const fs::path& path) {
   }
 }
 
-// libpng's texts of a file. No C++ object may live in here: after an error libpng jumps back into
-// it.
-void read_texts(png_structp png, png_infop info, std::FILE* file, png_textp* texts, int* count) {
-  if (setjmp(png_jmpbuf(png)) != 0) return;  // NOLINT(cert-err52-cpp): as libpng has it
-  png_init_io(png, file);
-  png_read_info(png, info);
-  png_get_text(png, info, texts, count);
-}
-
-// Those before the pixels that are of this program.
-ImageTexts png_texts(const fs::path& path) {
-  std::string complaint;
-  const auto note_error = [](png_structp png, png_const_charp message) {
-    *static_cast<std::string*>(png_get_error_ptr(png)) = message;
-    png_longjmp(png, 1);
-  };
-  const auto ignore_warning = [](png_structp /*png*/, png_const_charp /*message*/) {};
-  std::FILE* stream = std::fopen(path.c_str(), "rb");
-  if (stream == nullptr) complaint = std::generic_category().message(errno);
-  png_structp png =
-      png_create_read_struct(PNG_LIBPNG_VER_STRING, &complaint, note_error, ignore_warning);
-  png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
-  if (info == nullptr) complaint = "not enough memory";
-  png_textp texts = nullptr;
-  int count = 0;
-  if (complaint.empty()) read_texts(png, info, stream, &texts, &count);
-  ImageTexts found;
-  const std::string_view keyword(kPngKeyword);
-  for (int i = 0; i < count; ++i) {
-    const std::string_view key(texts[i].key);
-    if (key.starts_with(keyword)) found.emplace_back(key.substr(keyword.size()), texts[i].text);
-  }
-  png_destroy_read_struct(&png, &info, nullptr);
-  if (stream != nullptr) std::fclose(stream);
-  if (!complaint.empty()) throw unreadable(path, complaint);
-  return found;
-}
-
 // Throws UsageError for a picture that is neither PNG nor EXR.
 bool is_png(const fs::path& path) {
   const ImageFormat format = image_format(path);
@@ -207,27 +162,12 @@ bool is_png(const fs::path& path) {
 
 }  // namespace
 
-PngPixels read_png_pixels(const fs::path& path) {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_file(&image, path.c_str()) == 0) {
-    throw unreadable(path, static_cast<const char*>(image.message));
-  }
-  PngPixels pixels{image.width, image.height, (image.format & PNG_FORMAT_FLAG_ALPHA) != 0, {}};
-  image.format = pixels.alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
-  pixels.bytes.resize(PNG_IMAGE_SIZE(image));
-  if (png_image_finish_read(&image, nullptr, pixels.bytes.data(), 0, nullptr) == 0) {
-    throw unreadable(path, static_cast<const char*>(image.message));
-  }
-  return pixels;
-}
-
 Frame read_image(const fs::path& path) {
   return is_png(path) ? read_png(path) : read_exr(path);
 }
 
 ImageTexts read_attributes(const fs::path& path) {
-  return is_png(path) ? png_texts(path) : exr_attributes(path);
+  return is_png(path) ? read_png_texts(path) : exr_attributes(path);
 }
 
 }  // namespace trisect

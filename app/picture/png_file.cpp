@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -43,6 +44,11 @@ void note_error(png_structp png, png_const_charp message) {
 
 void ignore_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
+[[noreturn]] void fail(const std::filesystem::path& path, const char* what,
+                       const std::string& why) {
+  throw InputError(fmt::format("{}: could not be {}: {}.", path.string(), what, why));
+}
+
 // A picture's rows and texts as libpng takes them.
 struct PngContent {
   uint32_t width;
@@ -68,6 +74,14 @@ void write_content(png_structp png, png_infop info, std::FILE* file, PngContent&
   png_set_text(png, info, content.texts.data(), static_cast<int>(content.texts.size()));
   png_set_rows(png, info, content.rows.data());
   png_write_png(png, info, PNG_TRANSFORM_IDENTITY, nullptr);
+}
+
+// The same of reading: the texts of a file.
+void read_texts(png_structp png, png_infop info, std::FILE* file, png_textp* texts, int* count) {
+  if (setjmp(png_jmpbuf(png)) != 0) return;  // NOLINT(cert-err52-cpp): as libpng has it
+  png_init_io(png, file);
+  png_read_info(png, info);
+  png_get_text(png, info, texts, count);
 }
 
 // Latin letters and signs go as they are, the rest as UTF-8.
@@ -111,10 +125,45 @@ void write_png_pixels(PngPixels& pixels, const ImageTexts& texts,
   if (stream != nullptr && std::fclose(stream) != 0 && complaint.empty()) {
     complaint = std::generic_category().message(errno);
   }
-  if (!complaint.empty()) {
-    throw InputError(
-        fmt::format("{}: could not be written: {}.", file.target().string(), complaint));
+  if (!complaint.empty()) fail(file.target(), "written", complaint);
+}
+
+PngPixels read_png_pixels(const std::filesystem::path& path) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_file(&image, path.c_str()) == 0) {
+    fail(path, "read", static_cast<const char*>(image.message));
   }
+  PngPixels pixels{image.width, image.height, (image.format & PNG_FORMAT_FLAG_ALPHA) != 0, {}};
+  image.format = pixels.alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
+  pixels.bytes.resize(PNG_IMAGE_SIZE(image));
+  if (png_image_finish_read(&image, nullptr, pixels.bytes.data(), 0, nullptr) == 0) {
+    fail(path, "read", static_cast<const char*>(image.message));
+  }
+  return pixels;
+}
+
+ImageTexts read_png_texts(const std::filesystem::path& path) {
+  std::string complaint;
+  std::FILE* stream = std::fopen(path.c_str(), "rb");
+  if (stream == nullptr) complaint = std::generic_category().message(errno);
+  png_structp png =
+      png_create_read_struct(PNG_LIBPNG_VER_STRING, &complaint, note_error, ignore_warning);
+  png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
+  if (info == nullptr) complaint = "not enough memory";
+  png_textp texts = nullptr;
+  int count = 0;
+  if (complaint.empty()) read_texts(png, info, stream, &texts, &count);
+  ImageTexts found;
+  const std::string_view keyword(kPngKeyword);
+  for (int i = 0; i < count; ++i) {
+    const std::string_view key(texts[i].key);
+    if (key.starts_with(keyword)) found.emplace_back(key.substr(keyword.size()), texts[i].text);
+  }
+  png_destroy_read_struct(&png, &info, nullptr);
+  if (stream != nullptr) std::fclose(stream);
+  if (!complaint.empty()) fail(path, "read", complaint);
+  return found;
 }
 
 void write_png(const Frame& frame, const AtomicFile& file, const ImageContents& contents) {
@@ -125,11 +174,7 @@ void write_png(const Frame& frame, const AtomicFile& file, const ImageContents& 
     const vec4 color = contents.alpha ? divided_by_alpha(pixel) : pixel;
     for (int i = 0; i < components; ++i) pixels.bytes.push_back(byte_of(color[i]));
   }
-  ImageTexts texts;
-  for (const ImageAttribute& attribute : contents.attributes) {
-    texts.emplace_back(attribute.name, value_text(attribute));
-  }
-  write_png_pixels(pixels, texts, contents.place, file);
+  write_png_pixels(pixels, texts_of(contents.attributes), contents.place, file);
 }
 
 }  // namespace trisect

@@ -29,7 +29,9 @@ struct PngPixels {
 void write_png_pixels(PngPixels& pixels, const ImageTexts& texts,
                       const std::optional<FramePlace>& place, const AtomicFile& file);
 
-// Throws InputError, naming the file, if it cannot be read.
+// These throw InputError, naming the file, if it cannot be read.
 PngPixels read_png_pixels(const std::filesystem::path& path);
+// The texts before the pixels whose names begin with kPngKeyword, without that.
+ImageTexts read_png_texts(const std::filesystem::path& path);
 
 }  // namespace trisect

@@ -131,11 +131,8 @@ std::vector<uint32_t> numbers_in(const std::string& text, char between) {
 FramePlace place_of(const fs::path& path, const ImageTexts& texts, const PngPixels& pixels) {
   const std::vector<uint32_t> size = numbers_in(text_named(texts, "size"), 'x');
   const std::vector<uint32_t> tile = numbers_in(text_named(texts, "tile"), ',');
-  const auto fits = [](uint32_t first, uint32_t count, uint32_t whole) {
-    return count <= whole && first <= whole - count;
-  };
   if (size.size() != 2 || tile.size() != 4 || tile[2] != pixels.width || tile[3] != pixels.height ||
-      !fits(tile[0], tile[2], size[0]) || !fits(tile[1], tile[3], size[1])) {
+      !ImagePart{tile[0], tile[1], tile[2], tile[3]}.is_in(size[0], size[1])) {
     refuse(path, "does not say which part of which image it is");
   }
   expect_size(path, size[0], size[1]);

@@ -67,14 +67,6 @@ void add_model(CLI::App& command, std::string& model) {
       ->check(suggest_models());
 }
 
-void add_json(CLI::App& command, std::string& json, const std::string& what) {
-  command.add_option("--json", json, what)
-      ->group(option_group::kOutput)
-      ->check(not_empty())
-      ->check(suggest_files({".json"}))
-      ->type_name("FILE");
-}
-
 Command add_render(CLI::App& app) {
   struct Values {
     RenderOptions options;

@@ -155,6 +155,21 @@ std::unique_ptr<SceneTracer> make_tracer(const TraceRequest& request, const Bake
   return std::make_unique<OracleScene>(scene, choice);
 }
 
+std::optional<std::vector<FrameTime>> trace_runs(SceneTracer& tracer, const TraceRequest& request,
+                                                 const TraceParams& params, Frame& frame,
+                                                 const TraceProgress& progress) {
+  if (is_device(request.backend) && request.warm_up && !tracer.render(params, frame, progress)) {
+    return std::nullopt;
+  }
+  std::vector<FrameTime> times;
+  for (uint32_t run = 0; run < request.runs; ++run) {
+    const std::optional<FrameTime> time = tracer.render(params, frame, progress);
+    if (!time) return std::nullopt;
+    times.push_back(*time);
+  }
+  return times;
+}
+
 std::optional<TraceResult> trace_scene(const TraceRequest& request, const BakedScene& scene,
                                        const TraceParams& params, const KernelChoice& choice,
                                        const TraceProgress& progress) {
@@ -164,15 +179,9 @@ std::optional<TraceResult> trace_scene(const TraceRequest& request, const BakedS
   result.device = tracer->device();
   result.driver = tracer->driver();
   result.upload_ms = tracer->upload_ms();
-  if (is_device(request.backend) && request.warm_up &&
-      !tracer->render(params, result.frame, progress)) {
-    return std::nullopt;
-  }
-  for (uint32_t run = 0; run < request.runs; ++run) {
-    const std::optional<FrameTime> time = tracer->render(params, result.frame, progress);
-    if (!time) return std::nullopt;
-    result.frames.push_back(*time);
-  }
+  auto times = trace_runs(*tracer, request, params, result.frame, progress);
+  if (!times) return std::nullopt;
+  result.frames = *std::move(times);
   result.messages = tracer->close();
   return result;
 }

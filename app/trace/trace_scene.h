@@ -75,6 +75,12 @@ std::unique_ptr<SceneTracer> make_tracer(const TraceRequest& request, const Bake
                                          uint32_t width, uint32_t height,
                                          const KernelChoice& choice);
 
+// The frames that the request asks for, after a warm-up if it asks for one on a device; `frame` is
+// the last. Returns their times, or nothing if progress said stop.
+std::optional<std::vector<FrameTime>> trace_runs(SceneTracer& tracer, const TraceRequest& request,
+                                                 const TraceParams& params, Frame& frame,
+                                                 const TraceProgress& progress);
+
 // Nothing if progress said stop. Throws DeviceError if there is no device or it cannot hold the
 // scene, and std::logic_error on Vulkan if the choice needs a BVH (needs_bvh()) and the scene has
 // none: build_bvh() makes it. Several threads may call it at a time, but for Backend::opengl, whose

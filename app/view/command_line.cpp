@@ -63,10 +63,7 @@ CommandLine::CommandLine(CLI::App& app) {
       ->check(not_empty())
       ->check(suggest_files({".json"}))
       ->type_name("FILE");
-  command
-      .add_flag("--validation", options_.render.validation,
-                "Run under the Vulkan validation layer, fail on any message")
-      ->group(option_group::kTracing);
+  add_validation(command, options_.render.validation);
   add_device(command, options_.render.device);
 }
 
