@@ -84,9 +84,18 @@ std::string XDisplay::pixel(const std::string& window, int x, int y, int around)
   const int side = 2 * around + 1;
   const std::string part = std::to_string(side) + "x" + std::to_string(side) + "+" +
                            std::to_string(x - around) + "+" + std::to_string(y - around);
-  // Its text format has a line for each pixel, "0,0: (0,0,255)  #0000FF  blue".
   // Without such a window, import would wait for a click on another one.
-  return run("timeout 60 import -silent -window " + window + " -crop " + part + " -depth 8 txt:-");
+  const std::string import =
+      "timeout 60 import -silent -window " + window + " -crop " + part + " -depth 8 txt:- || true";
+  std::string output;
+  // While openbox maps a window, even one that is viewable, the server may refuse to read it.
+  for (int i = 0; i < 240; ++i) {
+    output = run(import);
+    // The text format has a line for each pixel, "0,0: (0,0,255)  #0000FF  blue".
+    if (output.find("0,0: ") != std::string::npos) return output;
+    usleep(250000);
+  }
+  throw std::runtime_error("window " + window + " cannot be read: " + output);
 }
 
 }  // namespace trisect::test

@@ -31,6 +31,7 @@ class XDisplay {
 
   // The pixels of a square of the window, as a text with a line for each that contains its colour
   // as "0000FF". The square is centred at this position and reaches `around` pixels to each side.
+  // Waits until the window can be read, up to a minute. Throws if it cannot.
   [[nodiscard]] std::string pixel(const std::string& window, int x, int y, int around = 0) const;
 
   // Whether a window of this name is on the screen and not minimised.
