@@ -73,7 +73,7 @@ void Comparison::inspect(const std::string& family, const std::string& number, F
 
 std::vector<Measurement> Comparison::measure(const std::string& model, uint32_t runs) {
   ProgressLine progress(fmt::format("measuring {}", model), entries_.size() * (runs + 2));
-  uint64_t done = 0;
+  uint32_t done = 0;
   Frame frame;
   for (Entry& entry : entries_) {
     entry.contender->inspect(frame);

@@ -146,7 +146,7 @@ std::vector<StabilityAxis> measure_stability(uint32_t rays) {
   uint64_t points = 0;
   for (const Axis& axis : all) points += axis.values.size() * std::size(kSolvers);
   ProgressLine progress("measuring stability", points);
-  uint64_t done = 0;
+  uint32_t done = 0;
   for (const Axis& axis : all) {
     StabilityAxis result{axis.name, axis.what, axis.logarithmic, {}};
     for (const Solver& solver : kSolvers) {

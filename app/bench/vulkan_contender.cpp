@@ -92,17 +92,17 @@ class OnVulkan : public Contender {
     VulkanTracer& tracer = kernels_->tracer(false, params_);
     const CpuStopwatch cpu;
     if (!tracer.holds_at_once(params_.width, params_.height)) {
-      const double ms = finished(tracer.render(params_, frame, not_interrupted)).gpu_ms;
+      const double ms = finished(tracer.render(params_, frame, until_interrupted())).gpu_ms;
       return {ms, cpu.milliseconds()};
     }
-    const double ms = finished(tracer.trace(params_, not_interrupted));
+    const double ms = finished(tracer.trace(params_, until_interrupted()));
     const double cpu_ms = cpu.milliseconds();
     tracer.fetch(params_, frame);
     return {ms, cpu_ms};
   }
 
   void inspect(Frame& frame) override {
-    finished(kernels_->tracer(true, params_).render(params_, frame, not_interrupted));
+    finished(kernels_->tracer(true, params_).render(params_, frame, until_interrupted()));
   }
 
   [[nodiscard]] std::size_t bytes() const override {

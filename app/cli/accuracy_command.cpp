@@ -62,8 +62,8 @@ AccuracyRow measure(const gpu::Device& device, const BakedScene& scene,
   const KernelChoice choice{settings.solver, true, true};
   VulkanTracer tracer(device, scene, settings.width, settings.height, choice);
   Frame frame;
-  finished(tracer.render(params, frame, not_interrupted));  // the warm-up
-  row.gpu_ms = finished(tracer.render(params, frame, not_interrupted)).gpu_ms;
+  finished(tracer.render(params, frame, until_interrupted()));  // the warm-up
+  row.gpu_ms = finished(tracer.render(params, frame, until_interrupted())).gpu_ms;
   row.accuracy = accuracy_of(frame, truth, scene, params);
   Frame on_cpu;
   trace_on_cpu(scene, params, choice, on_cpu, [](uint32_t) { return not_interrupted(); });

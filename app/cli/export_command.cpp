@@ -33,11 +33,11 @@ double error_for_surface(const ExportOptions& options, double rounding) {
 
 FlatMesh flattened(const ExportOptions& options, const Mesh& mesh, const BakedScene& scene,
                    double rounding) {
-  const BusyLine line("dividing " + options.model);
-  FlatMesh flat =
-      finished(options.subdivide ? divided_evenly(mesh, scene, *options.subdivide, not_interrupted)
-                                 : divided_to(mesh, scene, error_for_surface(options, rounding),
-                                              not_interrupted));
+  ProgressLine line("dividing " + options.model);
+  const FractionProgress show = [&](double done) { return line.show(done); };
+  FlatMesh flat = finished(
+      options.subdivide ? divided_evenly(mesh, scene, *options.subdivide, show)
+                        : divided_to(mesh, scene, error_for_surface(options, rounding), show));
   flat.bound += rounding;
   return flat;
 }
@@ -53,7 +53,10 @@ int export_mesh(const ExportOptions& options) {
   begin_outputs({options.model}, {options.output, options.json});
   Output file(options.output);
   OptionalOutput json_file(options.json);
-  const BuiltMesh built = build_mesh(read_model(options.model), options.model, options.mesh);
+  const BuiltMesh built = [&] {
+    const BusyLine line("reading " + options.model);
+    return build_mesh(read_model(options.model), options.model, options.mesh);
+  }();
   say("{}: {}\n", options.model, describe(built.report));
   stop_if_interrupted();
   const BakedScene scene = bake(built.mesh, {options.surface, options.alpha, SHELL_NORMAL});
@@ -61,8 +64,11 @@ int export_mesh(const ExportOptions& options) {
       flattened(options, built.mesh, scene, file_rounding(built.mesh, scene, *format));
   const std::size_t open_edges = count_open_edges(flat);
   stop_if_interrupted();
-  write_mesh(flat, *format, file.file());
-  file.commit();
+  {
+    const BusyLine line("writing " + options.output);
+    write_mesh(flat, *format, file.file());
+    file.commit();
+  }
   std::error_code unused;
   const auto bytes = std::filesystem::file_size(options.output, unused);
   say("{}: {} triangles, {} vertices, {}; off the surface by at most {:.3g} ({:.2g} of the "

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/base/keep_going.h"
+
 namespace trisect {
 
 // The user pressed Ctrl-C: the program ends.
@@ -20,6 +22,11 @@ void catch_interrupts();
 
 // True until a signal has come. Long steps of the library ask this to learn whether to go on.
 bool not_interrupted();
+
+// The same for steps that tell which part is done, which nobody sees.
+inline FractionProgress until_interrupted() {
+  return [](double) { return not_interrupted(); };
+}
 
 // Throws Interrupted if a signal has come.
 void stop_if_interrupted();

@@ -136,15 +136,9 @@ void expect_readable(const std::vector<std::string>& models) {
 
 TraceResult trace_showing_progress(const TraceRequest& request, const BakedScene& scene,
                                    const TraceParams& params, const KernelChoice& choice) {
-  ProgressLine line("rendering", kTraceSteps);
-  return finished(trace_scene(request, scene, params, choice, shown_on(line)));
-}
-
-TraceProgress shown_on(ProgressLine& line) {
-  return [&line](double done) {
-    // Vulkan and OpenGL report no progress: `done` stays 0.
-    return done > 0.0 ? line.show(static_cast<uint64_t>(done * kTraceSteps)) : not_interrupted();
-  };
+  ProgressLine line("rendering");
+  return finished(
+      trace_scene(request, scene, params, choice, [&](double done) { return line.show(done); }));
 }
 
 void add_bvh(LoadedScene& loaded) {

@@ -50,10 +50,6 @@ void expect_readable(const std::vector<std::string>& models);
 TraceResult trace_showing_progress(const TraceRequest& request, const BakedScene& scene,
                                    const TraceParams& params, const KernelChoice& choice);
 
-// Shows on the line, of kTraceSteps, how much of a frame is traced.
-constexpr uint64_t kTraceSteps = 1000;
-TraceProgress shown_on(ProgressLine& line);
-
 // Builds the tree over the scene's subpatches and measures the time.
 void add_bvh(LoadedScene& loaded);
 

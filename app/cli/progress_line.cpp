@@ -20,19 +20,19 @@ std::string duration_text(double seconds) {
 }
 
 ProgressLine::ProgressLine(std::string step, uint64_t total)
-    : step_(std::move(step)), total_(total) {}
+    : step_(std::move(step)), total_(static_cast<double>(total)) {}
 
 ProgressLine::~ProgressLine() {
-  if (shown_) std::fputs("\r\033[K", stderr);
+  if (next_ > 1.0) std::fputs("\r\033[K", stderr);
 }
 
-bool ProgressLine::show(uint64_t done) {
+bool ProgressLine::show(double done) {
   if (!not_interrupted()) return false;
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  if (seconds < 1.0 || !shows_progress()) return true;
-  const double part =
-      static_cast<double>(done) / static_cast<double>(std::max<uint64_t>(total_, 1));
+  if (seconds < next_ || !shows_progress()) return true;
+  next_ = seconds + 0.1;
+  const double part = total_ > 0.0 ? done / total_ : 1.0;
   constexpr int width = 30;
   const auto filled = static_cast<std::size_t>(part * width);
   const std::string bar = std::string(filled, '#') + std::string(width - filled, '.');
@@ -41,7 +41,6 @@ bool ProgressLine::show(uint64_t done) {
   std::fputs(fmt::format("\r{} [{}] {:3.0f}%{}\033[K", step_, bar, part * 100.0, left).c_str(),
              stderr);
   std::fflush(stderr);
-  shown_ = true;
   return true;
 }
 

@@ -18,7 +18,7 @@ std::string duration_text(double seconds);
 // shows_progress().
 class ProgressLine {
  public:
-  ProgressLine(std::string step, uint64_t total);
+  explicit ProgressLine(std::string step, uint64_t total = 1);
   // Wipes the line.
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
@@ -28,13 +28,13 @@ class ProgressLine {
 
   // done: from 0 to the total. Returns not_interrupted(), so that the call can serve as the
   // progress callback of a long step of the library.
-  bool show(uint64_t done);
+  bool show(double done);
 
  private:
   std::string step_;
-  uint64_t total_;
+  double total_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  bool shown_ = false;
+  double next_ = 1.0;  // seconds from the start until it is shown again
 };
 
 // A line with the seconds that a step has taken so far, for a step that reports no progress. It is

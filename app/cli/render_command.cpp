@@ -65,14 +65,18 @@ class Renderer {
     OptionalOutput stats(shot.stats);
     const TraceParams params = make_params(loaded_.scene, settings);
     if (!tracer_) {
+      const BusyLine line("making the kernels");
       tracer_ = make_tracer(
           request_, loaded_.scene, params.width, params.height,
           {options_.solver, picture_.needs_aovs(), options_.evals, accel_, options_.shadows});
     }
 
     RenderStatistics statistics;
-    ProgressLine line(step, kTraceSteps);
-    statistics.frames = finished(trace_runs(*tracer_, request_, params, frame_, shown_on(line)));
+    {
+      ProgressLine line(step);
+      statistics.frames = finished(trace_runs(*tracer_, request_, params, frame_,
+                                              [&](double done) { return line.show(done); }));
+    }
     frame_ = averaged(std::move(frame_), samples_across(options_.spp));
     statistics.source = {settings, accel_, loaded_.model_sha256, tracer_->device(),
                          tracer_->driver()};
@@ -86,6 +90,7 @@ class Renderer {
     statistics.upload_ms = tracer_->upload_ms();
     statistics.frame = shot.frame;
 
+    const BusyLine line("writing " + shot.image);
     write_image(frame_, format, image.file(), picture_.of(frame_, options_, statistics.source));
     stats.write(to_json(options_, statistics));
     // Where the image is, the frame is finished.

@@ -55,7 +55,15 @@ class BandParts {
       range.begin += count;
       groups += count;
     }
+    finished_ += groups;
     return groups;
+  }
+
+  // What part of the workgroups is finished, from 0 to 1.
+  [[nodiscard]] double part_done() const {
+    const double left =
+        static_cast<double>(camera_.end - camera_.begin) + (shadows_.end - shadows_.begin);
+    return left == 0.0 ? 1.0 : finished_ / (finished_ + left);
   }
 
   [[nodiscard]] bool is_done() const {
@@ -65,6 +73,7 @@ class BandParts {
  private:
   GroupRange camera_;
   GroupRange shadows_;
+  double finished_ = 0.0;
 };
 
 }  // namespace trisect

@@ -125,7 +125,7 @@ void VulkanTracer::resize(uint32_t width, uint32_t height) {
 }
 
 std::optional<FrameTime> VulkanTracer::render(const TraceParams& params, Frame& frame,
-                                              const KeepGoing& keep_going) {
+                                              const FractionProgress& progress) {
   if (params.width > width_ || params.height > height_) {
     throw std::logic_error("the trace parameters are not for this tracer's image size");
   }
@@ -134,7 +134,9 @@ std::optional<FrameTime> VulkanTracer::render(const TraceParams& params, Frame& 
   frame.resize(params.width, params.height, aovs_);
   for (uint32_t row = 0; row < params.height; row += band_rows_) {
     const uint32_t rows = std::min(band_rows_, params.height - row);
-    const std::optional<double> ms = render_band(params, row, rows, keep_going);
+    const double height = params.height;
+    const std::optional<double> ms =
+        render_band(params, row, rows, part_of(progress, row / height, (row + rows) / height));
     if (!ms) return std::nullopt;
     time.gpu_ms += *ms;
     download_band(row, rows, frame);
@@ -166,18 +168,20 @@ void VulkanTracer::fetch(const TraceParams& params, Frame& frame) {
   download_band(0, params.height, frame);
 }
 
-std::optional<double> VulkanTracer::trace(const TraceParams& params, const KeepGoing& keep_going) {
+std::optional<double> VulkanTracer::trace(const TraceParams& params,
+                                          const FractionProgress& progress) {
   if (!holds_at_once(params.width, params.height)) {
     throw std::logic_error("the frame does not fit into the output buffers");
   }
-  return render_band(params, 0, params.height, keep_going);
+  return render_band(params, 0, params.height, progress);
 }
 
 std::optional<double> VulkanTracer::render_band(const TraceParams& params, uint32_t first_row,
-                                                uint32_t rows, const KeepGoing& keep_going) {
+                                                uint32_t rows, const FractionProgress& progress) {
   const GroupRange all = groups_of_band(params.width, first_row, rows);
   const GroupRange listed{0, all.end - all.begin};
   BandParts band(tiles_ ? listed : all, kernels_->shadow_rays().empty() ? GroupRange{0, 0} : all);
+  const KeepGoing keep_going = [&] { return may_go_on(progress, band.part_done()); };
   bool begins_frame = first_row == 0;
   bool has_lists = !tiles_.has_value();
   double gpu_ms = 0.0;

@@ -44,15 +44,15 @@ class VulkanTracer {
 
   // Renders into `frame`, which gets the size that `params` says, in submits of bounded time: in
   // one if that is enough. An image that the output buffers do not hold is rendered in bands of
-  // rows. keep_going is asked between two submits; if it says stop, nothing is returned and the
-  // frame is incomplete. Throws std::logic_error if the image is larger than the tracer's,
-  // DeviceError if the device is lost.
+  // rows. progress is told between two submits what part of the frame is done; if it says stop,
+  // nothing is returned and the frame is incomplete. Throws std::logic_error if the image is larger
+  // than the tracer's, DeviceError if the device is lost.
   std::optional<FrameTime> render(const TraceParams& params, Frame& frame,
-                                  const KeepGoing& keep_going = {});
+                                  const FractionProgress& progress = {});
 
   // The same, but the frame stays on the device, in colors() and aovs(). Returns milliseconds on
   // the device. Throws std::logic_error unless holds_at_once() is true for the frame's size.
-  std::optional<double> trace(const TraceParams& params, const KeepGoing& keep_going = {});
+  std::optional<double> trace(const TraceParams& params, const FractionProgress& progress = {});
 
   // Copies the frame that trace() left on the device. params: those of trace().
   void fetch(const TraceParams& params, Frame& frame);
@@ -106,9 +106,9 @@ class VulkanTracer {
     return part.shadows ? kernels_->shadow_rays() : kernels_->camera_rays();
   }
   // Traces a band in as few submits as the budget allows; with the first one of a frame goes what
-  // the frame begins with. Returns milliseconds on the device, or nothing if keep_going stopped it.
+  // the frame begins with. Returns milliseconds on the device, or nothing if progress stopped it.
   std::optional<double> render_band(const TraceParams& params, uint32_t first_row, uint32_t rows,
-                                    const KeepGoing& keep_going);
+                                    const FractionProgress& progress);
   // Record, into a submit: what a frame begins with; all passes of a part for which there are
   // kernels of their own.
   void record_frame(const TraceParams& params);

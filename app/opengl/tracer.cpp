@@ -107,7 +107,7 @@ void Tracer::bind() const {
 }
 
 std::optional<FrameTime> Tracer::render(const TraceParams& params, Frame& frame,
-                                        const KeepGoing& keep_going) {
+                                        const FractionProgress& progress) {
   if (params.width != width_ || params.height != height_) {
     throw std::logic_error("the trace parameters are not for this tracer's image size");
   }
@@ -121,7 +121,9 @@ std::optional<FrameTime> Tracer::render(const TraceParams& params, Frame& frame,
   bind();
   for (uint32_t row = 0; row < height_; row += band_rows_) {
     const uint32_t rows = std::min(band_rows_, height_ - row);
-    const std::optional<double> ms = render_band(params, row, rows, keep_going);
+    const double height = height_;
+    const std::optional<double> ms =
+        render_band(params, row, rows, part_of(progress, row / height, (row + rows) / height));
     if (!ms) return std::nullopt;
     time.gpu_ms += *ms;
     if (path_ == GlPath::compute) {
@@ -137,12 +139,14 @@ std::optional<FrameTime> Tracer::render(const TraceParams& params, Frame& frame,
 }
 
 std::optional<double> Tracer::render_band(const TraceParams& params, uint32_t first_row,
-                                          uint32_t rows, const KeepGoing& keep_going) {
-  if (path_ == GlPath::fragment) return draw_band(params, first_row, rows, keep_going);
-  const std::optional<double> ms = compute_band(program_, first_row, rows, keep_going);
+                                          uint32_t rows, const FractionProgress& progress) {
+  if (path_ == GlPath::fragment) return draw_band(params, first_row, rows, progress);
+  const double camera_rays = shadow_program_ ? 0.5 : 1.0;
+  const std::optional<double> ms =
+      compute_band(program_, first_row, rows, part_of(progress, 0.0, camera_rays));
   if (!ms || !shadow_program_) return ms;
   const std::optional<double> shadow_ms =
-      compute_band(*shadow_program_, first_row, rows, keep_going);
+      compute_band(*shadow_program_, first_row, rows, part_of(progress, camera_rays, 1.0));
   return shadow_ms ? std::optional(*ms + *shadow_ms) : std::nullopt;
 }
 
@@ -161,7 +165,7 @@ uint32_t Tracer::submit(const QueuePass& pass, const TilePush& push,
 }
 
 std::optional<double> Tracer::compute_band(const Program& program, uint32_t first_row,
-                                           uint32_t rows, const KeepGoing& keep_going) {
+                                           uint32_t rows, const FractionProgress& progress) {
   const GroupRange groups = groups_of_band(width_, first_row, rows);
   glUseProgram(program.get());
   double total_ms = 0.0;
@@ -179,13 +183,14 @@ std::optional<double> Tracer::compute_band(const Program& program, uint32_t firs
     total_ms += ms;
     group += count;
     budget_.record(count, ms);
-    if (!may_go_on(keep_going)) return std::nullopt;
+    const double done = static_cast<double>(group - groups.begin) / (groups.end - groups.begin);
+    if (!may_go_on(progress, done)) return std::nullopt;
   }
   return total_ms;
 }
 
 std::optional<double> Tracer::draw_band(const TraceParams& params, uint32_t first_row,
-                                        uint32_t rows, const KeepGoing& keep_going) {
+                                        uint32_t rows, const FractionProgress& progress) {
   // The band's lowest row, counted from the bottom of the image as OpenGL does.
   const uint32_t lowest = height_ - first_row - rows;
   glUseProgram(program_.get());
@@ -211,7 +216,7 @@ std::optional<double> Tracer::draw_band(const TraceParams& params, uint32_t firs
     total_ms += ms;
     row += count;
     budget_.record(count, ms);
-    if (!may_go_on(keep_going)) return std::nullopt;
+    if (!may_go_on(progress, static_cast<double>(row) / rows)) return std::nullopt;
   }
   return total_ms;
 }

@@ -31,7 +31,7 @@ class Tracer {
   // As VulkanTracer::render(), but params.width and .height must be those of the constructor, and
   // FrameTime::gpu_ms is measured by the host's clock.
   std::optional<FrameTime> render(const TraceParams& params, Frame& frame,
-                                  const KeepGoing& keep_going = {});
+                                  const FractionProgress& progress = {});
 
   // What the constructor took for the upload, by the host's clock.
   [[nodiscard]] double upload_ms() const { return upload_ms_; }
@@ -41,13 +41,13 @@ class Tracer {
   // Calls `work`, which draws or dispatches, with these push constants. Returns how many rays
   // paused.
   uint32_t submit(const QueuePass& pass, const TilePush& push, const std::function<void()>& work);
-  // These return milliseconds, or nothing if keep_going stopped them.
+  // These return milliseconds, or nothing if progress stopped them.
   std::optional<double> compute_band(const Program& program, uint32_t first_row, uint32_t rows,
-                                     const KeepGoing& keep_going);
+                                     const FractionProgress& progress);
   std::optional<double> draw_band(const TraceParams& params, uint32_t first_row, uint32_t rows,
-                                  const KeepGoing& keep_going);
+                                  const FractionProgress& progress);
   std::optional<double> render_band(const TraceParams& params, uint32_t first_row, uint32_t rows,
-                                    const KeepGoing& keep_going);
+                                    const FractionProgress& progress);
   void read_buffers(uint32_t first_row, uint32_t rows, Frame& frame) const;
 
   uint32_t width_;

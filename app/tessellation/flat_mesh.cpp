@@ -127,16 +127,18 @@ class PieceBounds {
   double rounding_;
 };
 
-// Calls work(piece) for each, on all cores; false if keep_going stopped it.
+// Calls work(piece) for each, on all cores; false if progress said stop.
 template <typename Work>
-bool for_pieces(std::vector<Piece>& pieces, const Work& work, const KeepGoing& keep_going) {
+bool for_pieces(std::vector<Piece>& pieces, const Work& work, const FractionProgress& progress) {
   const auto chunk = [&](uint32_t number) {
     const std::size_t first = number * kChunk;
     const std::size_t end = std::min(first + kChunk, pieces.size());
     for (std::size_t k = first; k < end; ++k) work(pieces[k]);
   };
   const auto chunks = static_cast<uint32_t>((pieces.size() + kChunk - 1) / kChunk);
-  return parallel_rows(chunks, chunk, [&](uint32_t) { return may_go_on(keep_going); });
+  return parallel_rows(chunks, chunk, [&](uint32_t done) {
+    return may_go_on(progress, static_cast<double>(done) / chunks);
+  });
 }
 
 FlatMesh mesh_of(const std::vector<Piece>& pieces, SurfaceVertices& vertices, double error) {
@@ -179,11 +181,11 @@ class Refinement {
 
   enum class Round { divided, nothing_left, stopped };
 
-  Round refine(const KeepGoing& keep_going) {
+  Round refine(const FractionProgress& progress) {
     const auto look = [this](Piece& piece) {
       if (piece.chord < 0.0) examine(piece);
     };
-    if (!for_pieces(pieces_, look, keep_going)) return Round::stopped;
+    if (!for_pieces(pieces_, look, part_of(progress, done_, done_))) return Round::stopped;
     halved_.clear();
     double expected = 0.0;
     for (const Piece& piece : pieces_) {
@@ -202,7 +204,11 @@ class Refinement {
     }
     pieces_ = std::move(divided);
     vertices_.forget_edges();
-    return may_go_on(keep_going) ? Round::divided : Round::stopped;
+    const auto count = static_cast<double>(pieces_.size());
+    // Of teapot, torus and saddle to 1e-3 and 1e-5 there came 2.9 to 3.2 times as many.
+    if (count < expected) whole_ = 3.0 * expected;
+    done_ = std::clamp(count / whole_, done_, 1.0);
+    return may_go_on(progress, done_) ? Round::divided : Round::stopped;
   }
 
   FlatMesh mesh() { return mesh_of(pieces_, vertices_, error_); }
@@ -288,6 +294,8 @@ class Refinement {
   double error_;
   std::vector<Piece> pieces_;
   std::unordered_set<uint64_t> halved_;
+  double whole_ = 1.0;  // pieces that it will be
+  double done_ = 0.0;
 };
 
 // Divides patches into n x n pieces.
@@ -355,27 +363,32 @@ class EvenDivision {
 }  // namespace
 
 std::optional<FlatMesh> divided_evenly(const Mesh& mesh, const BakedScene& scene, uint32_t n,
-                                       const KeepGoing& keep_going) {
+                                       const FractionProgress& progress) {
   const std::size_t patches = scene.triangles.size();
   if (patches * n * n > kMostFlatTriangles) too_many();
   SurfaceVertices vertices(mesh, scene);
   EvenDivision division(vertices, n);
   std::vector<Piece> pieces;
   pieces.reserve(patches * n * n);
+  constexpr double divided = 0.5;  // of the work
+  const KeepGoing keep_going = [&] {
+    return may_go_on(progress, divided * static_cast<double>(pieces.size()) /
+                                   static_cast<double>(pieces.capacity()));
+  };
   for (const Piece& patch : whole_patches(patches, vertices)) {
     if (!division.divide(patch, pieces, keep_going)) return std::nullopt;
   }
   const PieceBounds bounds(scene, vertices);
   const auto measure = [&](Piece& piece) { bounds.measure(piece); };
-  if (!for_pieces(pieces, measure, keep_going)) return std::nullopt;
+  if (!for_pieces(pieces, measure, part_of(progress, divided, 1.0))) return std::nullopt;
   return mesh_of(pieces, vertices, kInfinity);
 }
 
 std::optional<FlatMesh> divided_to(const Mesh& mesh, const BakedScene& scene, double error,
-                                   const KeepGoing& keep_going) {
+                                   const FractionProgress& progress) {
   Refinement refinement(mesh, scene, error);
   for (;;) {
-    switch (refinement.refine(keep_going)) {
+    switch (refinement.refine(progress)) {
       case Refinement::Round::divided:
         break;
       case Refinement::Round::nothing_left:

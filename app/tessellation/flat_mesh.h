@@ -36,18 +36,19 @@ struct FlatMesh {
 constexpr std::size_t kMostFlatTriangles = 16'000'000;
 
 // Every patch as n x n triangles. scene: bake(mesh, ...) in the normal shell. Works on all cores;
-// the result does not depend on their number. Nothing if keep_going stopped it. Throws InputError
+// the result does not depend on their number. Nothing if progress said stop. Throws InputError
 // beyond kMostFlatTriangles.
 std::optional<FlatMesh> divided_evenly(const Mesh& mesh, const BakedScene& scene, uint32_t n,
-                                       const KeepGoing& keep_going = {});
+                                       const FractionProgress& progress = {});
 
 // As many triangles as it takes for a bound of `error`, in the model's units: edges are halved for
 // both of their triangles, the most bent first, until every triangle's own bound is small enough.
 // Where lines begin to miss a vertex's sphere no bound falls as fast as triangles shrink: those of
 // less than a quarter of `error` are left as they are, and the mesh's bound is then larger; so is
-// it where FlatMesh::off is more than three quarters of `error`. scene, the rest: as above.
+// it where FlatMesh::off is more than three quarters of `error`. progress: an estimate. scene, the
+// rest: as above.
 std::optional<FlatMesh> divided_to(const Mesh& mesh, const BakedScene& scene, double error,
-                                   const KeepGoing& keep_going = {});
+                                   const FractionProgress& progress = {});
 
 // Of each vertex the first one at exactly the same place.
 std::vector<uint32_t> first_at_same_place(const FlatMesh& mesh);

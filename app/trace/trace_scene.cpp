@@ -16,10 +16,6 @@
 namespace trisect {
 namespace {
 
-KeepGoing keep_going_of(const TraceProgress& progress) {
-  return [&progress] { return !progress || progress(0.0); };
-}
-
 class VulkanScene final : public SceneTracer {
  public:
   VulkanScene(const TraceRequest& request, const BakedScene& scene, uint32_t width, uint32_t height,
@@ -32,8 +28,8 @@ class VulkanScene final : public SceneTracer {
   }
 
   std::optional<FrameTime> render(const TraceParams& params, Frame& frame,
-                                  const TraceProgress& progress) override {
-    return on_device_->tracer->render(params, frame, keep_going_of(progress));
+                                  const FractionProgress& progress) override {
+    return on_device_->tracer->render(params, frame, progress);
   }
 
   std::vector<std::string> close() override {
@@ -66,8 +62,8 @@ class OpenGlScene final : public SceneTracer {
   }
 
   std::optional<FrameTime> render(const TraceParams& params, Frame& frame,
-                                  const TraceProgress& progress) override {
-    return tracer_.render(params, frame, keep_going_of(progress));
+                                  const FractionProgress& progress) override {
+    return tracer_.render(params, frame, progress);
   }
 
  private:
@@ -85,11 +81,11 @@ class HostScene : public SceneTracer {
   }
 
   std::optional<FrameTime> render(const TraceParams& params, Frame& frame,
-                                  const TraceProgress& progress) override {
+                                  const FractionProgress& progress) override {
     const Stopwatch watch;
     const uint32_t rows_of_work = rows_of(params);
     const auto tell = [&](uint32_t rows) {
-      return !progress || progress(static_cast<double>(rows) / rows_of_work);
+      return may_go_on(progress, static_cast<double>(rows) / rows_of_work);
     };
     if (!render_rows(params, frame, tell)) return std::nullopt;
     FrameTime time;
@@ -157,22 +153,22 @@ std::unique_ptr<SceneTracer> make_tracer(const TraceRequest& request, const Bake
 
 std::optional<std::vector<FrameTime>> trace_runs(SceneTracer& tracer, const TraceRequest& request,
                                                  const TraceParams& params, Frame& frame,
-                                                 const TraceProgress& progress) {
-  if (is_device(request.backend) && request.warm_up && !tracer.render(params, frame, progress)) {
-    return std::nullopt;
-  }
+                                                 const FractionProgress& progress) {
+  const uint32_t untimed = is_device(request.backend) && request.warm_up ? 1 : 0;
+  const double frames = untimed + request.runs;
   std::vector<FrameTime> times;
-  for (uint32_t run = 0; run < request.runs; ++run) {
-    const std::optional<FrameTime> time = tracer.render(params, frame, progress);
+  for (uint32_t k = 0; k < frames; ++k) {
+    const std::optional<FrameTime> time =
+        tracer.render(params, frame, part_of(progress, k / frames, (k + 1) / frames));
     if (!time) return std::nullopt;
-    times.push_back(*time);
+    if (k >= untimed) times.push_back(*time);
   }
   return times;
 }
 
 std::optional<TraceResult> trace_scene(const TraceRequest& request, const BakedScene& scene,
                                        const TraceParams& params, const KernelChoice& choice,
-                                       const TraceProgress& progress) {
+                                       const FractionProgress& progress) {
   const std::unique_ptr<SceneTracer> tracer =
       make_tracer(request, scene, params.width, params.height, choice);
   TraceResult result;

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/bake/bake.h"
+#include "app/base/keep_going.h"
 #include "app/buffers/kernel_choice.h"
 #include "app/dispatch/backend.h"
 #include "app/frame/frame.h"
@@ -36,10 +36,6 @@ struct TraceResult {
   std::vector<std::string> messages;  // of the validation layer
 };
 
-// Told now and then, on the thread that called, what part of a frame is done, from 0 to 1 (0 on
-// devices, which do not say); returns whether to go on. Empty: nobody is told.
-using TraceProgress = std::function<bool(double done)>;
-
 // A scene on a back end, for one frame after the other. For one thread.
 class SceneTracer {
  public:
@@ -53,7 +49,7 @@ class SceneTracer {
   // params: of the scene that make_tracer() got, no wider and higher than it said; for OpenGL just
   // as wide and high. Nothing if progress said stop. Throws DeviceError.
   virtual std::optional<FrameTime> render(const TraceParams& params, Frame& frame,
-                                          const TraceProgress& progress) = 0;
+                                          const FractionProgress& progress) = 0;
 
   // Lets go of the device. Returns the messages of the validation layer. No frame can follow.
   virtual std::vector<std::string> close() { return {}; }
@@ -76,10 +72,10 @@ std::unique_ptr<SceneTracer> make_tracer(const TraceRequest& request, const Bake
                                          const KernelChoice& choice);
 
 // The frames that the request asks for, after a warm-up if it asks for one on a device; `frame` is
-// the last. Returns their times, or nothing if progress said stop.
+// the last. progress: of all of them. Returns their times, or nothing if progress said stop.
 std::optional<std::vector<FrameTime>> trace_runs(SceneTracer& tracer, const TraceRequest& request,
                                                  const TraceParams& params, Frame& frame,
-                                                 const TraceProgress& progress);
+                                                 const FractionProgress& progress);
 
 // Nothing if progress said stop. Throws DeviceError if there is no device or it cannot hold the
 // scene, and std::logic_error on Vulkan if the choice needs a BVH (needs_bvh()) and the scene has
@@ -87,6 +83,6 @@ std::optional<std::vector<FrameTime>> trace_runs(SceneTracer& tracer, const Trac
 // context is current in one thread only while it runs.
 std::optional<TraceResult> trace_scene(const TraceRequest& request, const BakedScene& scene,
                                        const TraceParams& params, const KernelChoice& choice,
-                                       const TraceProgress& progress = {});
+                                       const FractionProgress& progress = {});
 
 }  // namespace trisect

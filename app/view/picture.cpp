@@ -63,7 +63,7 @@ bool Picture::trace(const TraceSettings& settings, const KeepGoing& keep_going) 
   if (!tracer_->holds_at_once(settings.width, settings.height)) {
     tracer_->resize(settings.width, settings.height);
   }
-  if (!tracer_->trace(params, keep_going)) return false;
+  if (!tracer_->trace(params, [&](double) { return may_go_on(keep_going); })) return false;
   params_ = params;
   return true;
 }

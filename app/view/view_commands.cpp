@@ -213,7 +213,7 @@ void ViewCommands::start_measurement() {
                       state_.kernels.code().get());
   Frame frame;
   // Stopped by an interrupt, which ends the program.
-  if (!tracer.render(params, frame, not_interrupted)) return;
+  if (!tracer.render(params, frame, until_interrupted())) return;
   state_.facts.error.clear();
   state_.settings.shown = SHOWN_ERROR;
   errors_.start(state_.content(window_.width(), window_.height()), model.shared_scene(), params,

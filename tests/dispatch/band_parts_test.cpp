@@ -41,11 +41,14 @@ TEST(BandParts, GoOnAfterThoseThatAreTraced) {
   BandParts band({0, 10}, {0, 10});
   const std::vector<Part> parts = band.next(100, 4);
   // The third part was not begun.
+  EXPECT_EQ(band.part_done(), 0.0);
   EXPECT_EQ(band.finish(std::span(parts).first(2)), 8U);
+  EXPECT_EQ(band.part_done(), 8.0 / 20.0);
   EXPECT_EQ(text_of(band.next(100, 4)), "c8+2 s0+4 s4+4 s8+2");
   EXPECT_FALSE(band.is_done());
   band.finish(band.next(100, 4));
   EXPECT_TRUE(band.is_done());
+  EXPECT_EQ(band.part_done(), 1.0);
   EXPECT_EQ(text_of(band.next(100, 4)), "");
 }
 
@@ -56,6 +59,7 @@ TEST(BandParts, CountOnlyTheTilesThatThereAre) {
   EXPECT_EQ(text_of(parts), "c0+50 c50+10");
   band.end_camera_at(53);
   EXPECT_EQ(band.finish(parts), 53U);
+  EXPECT_EQ(band.part_done(), 53.0 / 63.0);
   EXPECT_EQ(text_of(band.next(60, 50)), "s0+10");
 }
 

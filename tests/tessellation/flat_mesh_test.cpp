@@ -347,13 +347,34 @@ TEST(FlatMesh, StopsWhenItIsTold) {
   const Model model("torus", SURFACE_PHONG);
   for (const int after : {0, 1, 5}) {
     int asked = 0;
-    const KeepGoing keep_going = [&] { return asked++ < after; };
+    const FractionProgress keep_going = [&](double) { return asked++ < after; };
     EXPECT_FALSE(divided_to(model.mesh, model.scene, 1e-4, keep_going));
     EXPECT_EQ(asked, after + 1);
     asked = 0;
     EXPECT_FALSE(divided_evenly(model.mesh, model.scene, 20, keep_going));
     EXPECT_EQ(asked, after + 1);
   }
+}
+
+TEST(FlatMesh, TellsWhichPartIsDone) {
+  const Model model("torus", SURFACE_PHONG);
+  std::vector<double> told;
+  const FractionProgress progress = [&](double done) {
+    told.push_back(done);
+    return true;
+  };
+  const auto expect_risen = [&] {
+    ASSERT_GE(told.size(), 4U);
+    EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+    EXPECT_GE(told.front(), 0.0);
+    EXPECT_LE(told.back(), 1.0);
+    EXPECT_GE(told.back(), 0.5);
+    told.clear();
+  };
+  ASSERT_TRUE(divided_to(model.mesh, model.scene, 1e-3, progress));
+  expect_risen();
+  ASSERT_TRUE(divided_evenly(model.mesh, model.scene, 20, progress));
+  expect_risen();
 }
 
 // What another program makes of the file: where our frame has a hit it has a surface within the

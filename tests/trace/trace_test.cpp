@@ -270,7 +270,7 @@ TEST_F(Trace, FramesDoNotDependOnTheirTiling) {
   Frame first;
   Frame second;
   int submits = 0;
-  tracer.render(params, first, [&] { return ++submits > 0; });
+  tracer.render(params, first, [&](double) { return ++submits > 0; });
   EXPECT_GT(submits, 1) << "the first frame is rendered in small submits";
   // Now the tracer knows the cost of a workgroup and divides the image into other submits.
   tracer.render(params, second);
@@ -320,11 +320,12 @@ TEST_F(Trace, StopsBetweenTwoSubmits) {
   VulkanTracer tracer(test::validated_device(), scene, 400, 300, {SOLVER_BISECT, false});
   Frame frame;
   int submits = 0;
-  EXPECT_FALSE(tracer.render(make_params(scene, settings), frame, [&] { return ++submits < 2; }));
+  EXPECT_FALSE(
+      tracer.render(make_params(scene, settings), frame, [&](double) { return ++submits < 2; }));
   EXPECT_EQ(submits, 2);
   // An exception of the caller's function passes through.
   EXPECT_THROW(tracer.render(make_params(scene, settings), frame,
-                             []() -> bool { throw std::runtime_error("stop"); }),
+                             [](double) -> bool { throw std::runtime_error("stop"); }),
                std::runtime_error);
   // The tracer renders the next frame as if nothing had happened.
   tracer.render(make_params(scene, settings), frame);
@@ -408,7 +409,7 @@ TEST_F(Trace, CountsTheBytesThatRaysRead) {
                         {.solver = solver, .aovs = true, .counts = true, .accel = accel});
     Frame frame;
     // The count of a frame that is stopped is not added to that of the next one.
-    EXPECT_FALSE(tracer.render(params, frame, [] { return false; }));
+    EXPECT_FALSE(tracer.render(params, frame, [](double) { return false; }));
     tracer.render(params, frame);
     return frame.bytes_read;
   };
