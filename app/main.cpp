@@ -12,6 +12,7 @@ namespace trisect {
 namespace {
 
 int fail(int code, const std::string& message) {
+  ends_in_order();
   std::fprintf(stderr, "trisect: %s\n", message.c_str());
   return code;
 }

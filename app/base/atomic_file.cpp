@@ -2,11 +2,9 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <fstream>
 #include <string>
 #include <system_error>
@@ -20,16 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The name of a temporary file in the target's folder, as mkstemp() takes it.
-std::string temporary_name(const fs::path& target) {
-  return (folder_of(target) / ".trisect-XXXXXX").string();
-}
+// Of a new file, less the umask.
+constexpr mode_t kNewFile = 0666;
 
 // A descriptor of a file without a name in that folder; -1 where there cannot be any.
 int open_unnamed(const fs::path& folder) {
   // Without /proc it could get no name later.
   if (access("/proc/self/fd", X_OK) != 0) return -1;
-  return open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  return open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, kNewFile);
 }
 
 // Gives the file of a descriptor a name that nothing has. Returns 0, or errno.
@@ -51,32 +47,25 @@ AtomicFile::AtomicFile(const fs::path& target) : target_(target) {
     throw InputError(target_.string() + ": cannot be written: it is not a regular file.");
   }
   unnamed_ = open_unnamed(folder_of(target_));
-  int file = unnamed_;
-  if (has_name()) {
-    std::string name = temporary_name(target_);
-    file = mkstemp(name.data());
-    if (file < 0) fail(errno);
-    temporary_ = name;
+  if (unnamed_ < 0) {
+    make_name();
+    temporary_ = name_->path();
   } else {
     temporary_ = fmt::format("/proc/{}/fd/{}", getpid(), unnamed_);
   }
-  // So far only the owner may read it. Give it the permissions of the file it replaces, or those of
-  // any new file.
-  const mode_t mask = umask(0);
-  umask(mask);
-  const mode_t mode = fs::exists(status)
-                          ? static_cast<mode_t>(status.permissions() & fs::perms::mask)
-                          : mode_t{0666} & ~mask;
-  fchmod(file, mode);
-  if (has_name()) close(file);
+  // A file that is replaced keeps its permissions.
+  if (fs::exists(status)) fs::permissions(temporary_, status.permissions(), error);
 }
 
 AtomicFile::~AtomicFile() {
-  std::error_code unused;
-  if (!has_name()) {
-    close(unnamed_);
-  } else if (!temporary_.empty()) {
-    fs::remove(temporary_, unused);
+  if (unnamed_ >= 0) close(unnamed_);
+}
+
+void AtomicFile::make_name() {
+  try {
+    name_.emplace(folder_of(target_), kNewFile);
+  } catch (const std::system_error& error) {
+    fail(error.code().value());
   }
 }
 
@@ -88,29 +77,24 @@ void AtomicFile::write(std::string_view text) const {
 }
 
 void AtomicFile::commit() {
-  if (!has_name()) {
+  if (unnamed_ >= 0) {
     const int error = link_as(unnamed_, target_);
     if (error != 0 && error != EEXIST) fail(error);
-    if (error == 0) {
-      close(std::exchange(unnamed_, -1));
-      temporary_.clear();
-      return;
+    if (error != 0) {
+      // Only a file with a name can take the place of another: one is made to find a name that is
+      // free.
+      make_name();
+      unlink(name_->path().c_str());
+      if (const int again = link_as(unnamed_, name_->path()); again != 0) fail(again);
     }
-    // Only a file with a name can take the place of another: mkstemp() finds a name that is free,
-    // if only for a moment.
-    std::string name = temporary_name(target_);
-    const int placeholder = mkstemp(name.data());
-    if (placeholder < 0) fail(errno);
-    close(placeholder);
-    unlink(name.c_str());
-    if (const int again = link_as(unnamed_, name); again != 0) fail(again);
     close(std::exchange(unnamed_, -1));
-    temporary_ = name;
   }
-  std::error_code error;
-  fs::rename(temporary_, target_, error);
-  if (error) fail(error.value());
-  temporary_.clear();
+  if (name_) {
+    std::error_code error;
+    fs::rename(name_->path(), target_, error);
+    if (error) fail(error.value());
+    name_->release();
+  }
 }
 
 void AtomicFile::fail(int error) const {

@@ -2,17 +2,18 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string_view>
+
+#include "app/base/temporary_names.h"
 
 namespace trisect {
 
 // Makes a file in the folder of `target` at once, so that a target that cannot be written is
 // noticed before the work and not after it; commit() moves it into place. Without commit() the
 // destructor removes it. Where the file system can (O_TMPFILE), it has no name until then, so that
-// a process that is killed leaves nothing; else it is called .trisect- and six letters. A target
-// that is a symbolic link stays one: the file it leads to is replaced. A file that is replaced
-// keeps its permissions. Not for use from several threads: the constructor reads the process's
-// umask by setting it for a moment.
+// a process that is killed leaves nothing; else it is a TemporaryName. A target that is a symbolic
+// link stays one: the file it leads to is replaced. A file that is replaced keeps its permissions.
 class AtomicFile {
  public:
   // Throws InputError, naming the target, if no file can be made there or if it is something other
@@ -36,12 +37,14 @@ class AtomicFile {
   void commit();
 
  private:
-  [[nodiscard]] bool has_name() const { return unnamed_ < 0; }
+  // Makes name_. Throws InputError.
+  void make_name();
   [[noreturn]] void fail(int error) const;
 
   std::filesystem::path target_;
   std::filesystem::path temporary_;
   int unnamed_ = -1;  // the descriptor of a file without a name
+  std::optional<TemporaryName> name_;
 };
 
 }  // namespace trisect

@@ -6,12 +6,12 @@
 #include <unistd.h>
 
 #include <array>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
 
 #include "app/base/error.h"
+#include "app/base/temporary_names.h"
 
 namespace trisect::bench {
 namespace {
@@ -35,32 +35,6 @@ int gnuplot(std::string argument) {
   return WEXITSTATUS(status);
 }
 
-// A temporary file, removed by the destructor.
-class Script {
- public:
-  explicit Script(const std::string& text) {
-    std::string name = (std::filesystem::temp_directory_path() / "trisect-XXXXXX").string();
-    const int file = mkstemp(name.data());
-    if (file < 0) throw InputError("no temporary file can be made for gnuplot.");
-    close(file);
-    path_ = name;
-    std::ofstream(path_) << text;
-  }
-  ~Script() {
-    std::error_code unused;
-    std::filesystem::remove(path_, unused);
-  }
-  Script(const Script&) = delete;
-  Script& operator=(const Script&) = delete;
-  Script(Script&&) = delete;
-  Script& operator=(Script&&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 }  // namespace
 
 void expect_gnuplot() {
@@ -70,8 +44,13 @@ void expect_gnuplot() {
 }
 
 void run_gnuplot(const std::string& script) {
-  const Script file(script);
-  if (gnuplot(file.path().string()) != 0) throw InputError("gnuplot could not draw a plot.");
+  try {
+    const TemporaryName file(std::filesystem::temp_directory_path(), 0600);
+    std::ofstream(file.path()) << script;
+    if (gnuplot(file.path().string()) != 0) throw InputError("gnuplot could not draw a plot.");
+  } catch (const std::system_error&) {
+    throw InputError("no temporary file can be made for gnuplot.");
+  }
 }
 
 }  // namespace trisect::bench

@@ -1,31 +1,38 @@
 #include "app/cli/interrupt.h"
 
+#include <unistd.h>
+
 #include <csignal>
-#include <ctime>
+#include <cstring>
+
+#include "app/base/error.h"
+#include "app/base/temporary_names.h"
 
 namespace trisect {
 namespace {
 
 volatile std::sig_atomic_t signalled = 0;
-timespec first_signal{};
+bool is_on_terminal = false;
 
-// Calls only what is safe in a handler.
-void on_signal(int number) {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  if (signalled == 0) {
-    first_signal = now;
-    signalled = 1;
-  } else if (now.tv_sec > first_signal.tv_sec + 1) {
-    std::signal(number, SIG_DFL);
-    std::raise(number);
-  }
+// The handlers call only what is safe in them.
+
+void on_signal(int /*number*/) {
+  // Who ends a group of processes may signal twice, as timeout does.
+  if (signalled == 0) alarm(1);
+  signalled = 1;
+}
+
+void on_alarm(int /*number*/) {
+  end_at_once(exit_interrupted, "interrupted");
 }
 
 }  // namespace
 
 void catch_interrupts() {
+  is_on_terminal = isatty(STDERR_FILENO) != 0;
   struct sigaction action {};
+  action.sa_handler = on_alarm;
+  sigaction(SIGALRM, &action, nullptr);
   action.sa_handler = on_signal;
   std::signal(SIGXFSZ, SIG_IGN);
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
@@ -34,6 +41,23 @@ void catch_interrupts() {
     // Whoever started the program with the signal ignored (nohup) wants it ignored.
     if (inherited.sa_handler != SIG_IGN) sigaction(number, &action, nullptr);
   }
+}
+
+void ends_in_order() {
+  alarm(0);
+}
+
+void end_at_once(int code, const char* message) {
+  remove_temporary_files();
+  const auto print = [](const char* text) {
+    [[maybe_unused]] const ssize_t unused = write(STDERR_FILENO, text, std::strlen(text));
+  };
+  // There may be a line of progress.
+  if (is_on_terminal) print("\r\033[K");
+  print("trisect: ");
+  print(message);
+  print("\n");
+  _exit(code);
 }
 
 bool not_interrupted() {

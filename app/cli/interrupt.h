@@ -15,10 +15,17 @@ class Interrupted : public std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
-// Installs the handlers: the first SIGINT, SIGTERM, SIGHUP or SIGQUIT is remembered, one that comes
-// two seconds later ends the program. (Who ends a group of processes may signal twice at once, as
-// timeout does.) A file that becomes larger than allowed (SIGXFSZ) is an error of writing.
+// Installs the handlers: SIGINT, SIGTERM, SIGHUP or SIGQUIT is remembered, and if the program has
+// not ended a second later, as it waits for a driver or a library, end_at_once() ends it. A file
+// that becomes larger than allowed (SIGXFSZ) is an error of writing.
 void catch_interrupts();
+
+// For an error that is about to be told: from here on the program ends by itself.
+void ends_in_order();
+
+// Ends the process with this exit code after a line on standard error, from any thread, also from a
+// signal handler. Temporary files are removed, nothing else is cleaned up. message: "interrupted".
+[[noreturn]] void end_at_once(int code, const char* message);
 
 // True until a signal has come. Long steps of the library ask this to learn whether to go on.
 bool not_interrupted();

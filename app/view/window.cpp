@@ -1,8 +1,11 @@
 #include "app/view/window.h"
 
+#include <dlfcn.h>
+
 #include <utility>
 
 #include "app/base/error.h"
+#include "app/cli/interrupt.h"
 #include "vk/result.h"
 
 namespace trisect::view {
@@ -22,6 +25,21 @@ std::string last_error() {
   return text == nullptr ? "no reason is known" : text;
 }
 
+// What Xlib does when its server goes would be a text of its own and exit code 1.
+void tell_when_the_display_goes() {
+  // GLFW has loaded it if it uses it.
+  void* xlib = dlopen("libX11.so.6", RTLD_NOW | RTLD_NOLOAD);
+  if (xlib == nullptr) return;
+  using Handler = int (*)(void* display);
+  const auto set_handler =
+      reinterpret_cast<Handler (*)(Handler)>(dlsym(xlib, "XSetIOErrorHandler"));
+  if (set_handler == nullptr) return;
+  // It must not return.
+  set_handler([](void* /*display*/) -> int {
+    end_at_once(exit_no_device, "the display has gone, and the window with it.");
+  });
+}
+
 }  // namespace
 
 Window::Window(uint32_t width, uint32_t height, const std::string& title) : title_(title) {
@@ -29,6 +47,7 @@ Window::Window(uint32_t width, uint32_t height, const std::string& title) : titl
     throw NoDevice("trisect view needs a display: " + last_error() +
                    "; trisect render needs none.");
   }
+  tell_when_the_display_goes();
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
   window_ = glfwCreateWindow(static_cast<int>(width), static_cast<int>(height), title.c_str(),
                              nullptr, nullptr);

@@ -1,11 +1,18 @@
 // The program on a driver whose calls fail, one at a time.
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+#include <sys/wait.h>
+
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/failing_calls.h"
+#include "tests/support/file_content.h"
 #include "tests/support/scenes.h"
 #include "tests/support/temporary_folder.h"
 
@@ -70,6 +77,28 @@ TEST(FailingCalls, AreToldByOtherCommands) {
                       {"vkAllocateMemory", 20, "VK_ERROR_OUT_OF_DEVICE_MEMORY"},
                       {"vkWaitForFences", 10, "VK_ERROR_DEVICE_LOST"}})) {
     test::expect_told(run);
+  }
+}
+
+// Nobody waits longer than a second for a driver that does not come back.
+TEST(HangingCalls, AreInterrupted) {
+  const test::TemporaryFolder folder;
+  const std::string environment = fmt::format("{} VK_INSTANCE_LAYERS=VK_LAYER_TRISECT_fault",
+                                              test::layer_environment("fault").front());
+  for (const auto& [call, signal] : {std::pair("vkCreateDevice", "TERM"),
+                                     {"vkCreateComputePipelines", "INT"},
+                                     {"vkCreateComputePipelines", "HUP"},
+                                     {"vkWaitForFences", "QUIT"}}) {
+    // SIGKILL, exit code 137, ends a program that does not end by itself.
+    const std::string line = fmt::format(
+        "{} TRISECT_TEST_FAIL={}:1:HANG timeout --preserve-status -s {} -k 30 1.5 {} render {} -o "
+        "{} >/dev/null 2>{}",
+        environment, call, signal, test::program_path(), test::asset_path("cube"),
+        (folder / "a.png").string(), (folder / "err").string());
+    EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), 130) << call << ", " << signal;
+    EXPECT_EQ(test::content_of(folder / "err"), "trisect: interrupted\n") << call;
+    std::filesystem::remove(folder / "err");
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << call << ", " << signal;
   }
 }
 

@@ -3,6 +3,7 @@
 //     The third call of this function fails with this result; `*` for the function counts all calls
 //     that can fail. What is below the layer hears nothing of the call. After VK_ERROR_DEVICE_LOST
 //     the device is lost: its queue does nothing any more, and all that waits for it fails too.
+//     With HANG for the result the call never returns.
 //   TRISECT_TEST_CALLS=FILE
 //     Writes a line with the name of the function for each call that can fail.
 //   TRISECT_TEST_FAULT_REPORT=1
@@ -11,6 +12,8 @@
 //     Kernels do nothing, and so need next to no time to be compiled: of a run nothing but the
 //     calls is left. Short ones stay, by which a frame goes on from pass to pass. All timestamps
 //     are 0, so that the number of calls does not depend on how long they take.
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -66,10 +69,12 @@ class Faults {
     words >> left_;
     words.ignore(1, ':');
     words >> result;
+    hangs_ = result == "HANG";
     for (const auto& [name, value] : kResults) {
       if (name == result) result_ = value;
     }
-    if (left_ < 1 || result_ == VK_SUCCESS) give_up("TRISECT_TEST_FAIL cannot be " + text);
+    if (left_ < 1 || (result_ == VK_SUCCESS && !hangs_))
+      give_up("TRISECT_TEST_FAIL cannot be " + text);
   }
 
   // What the present call of this function fails with; nothing if it does not.
@@ -79,6 +84,7 @@ class Faults {
     if (left_ == 0 || (function_ != "*" && function_ != function)) return {};
     --left_;
     if (left_ > 0) return {};
+    while (hangs_) pause();
     return result_;
   }
 
@@ -88,6 +94,7 @@ class Faults {
   std::string function_;
   int64_t left_ = 0;  // calls until the one that fails; 0 if none does any more
   VkResult result_ = VK_SUCCESS;
+  bool hangs_ = false;
 };
 
 Faults& faults() {

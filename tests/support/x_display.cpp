@@ -33,8 +33,14 @@ XDisplay::~XDisplay() {
     kill(manager_, SIGTERM);
     waitpid(manager_, nullptr, 0);
   }
+  end();
+}
+
+void XDisplay::end() {
+  if (server_ <= 0) return;
   kill(server_, SIGTERM);
   waitpid(server_, nullptr, 0);
+  server_ = -1;
 }
 
 void XDisplay::manage_windows() {

@@ -18,6 +18,9 @@ class XDisplay {
   XDisplay(XDisplay&&) = delete;
   XDisplay& operator=(XDisplay&&) = delete;
 
+  // The server ends, and with it all connections to it.
+  void end();
+
   // Starts a window manager, which minimises, restores and closes windows and gives them the
   // keyboard's focus.
   void manage_windows();

@@ -256,6 +256,23 @@ TEST_F(View, DrawsNothingAtRest) {
   EXPECT_LE(frames, 20);
 }
 
+// A session may end with the window open.
+TEST_F(View, EndsWithTheDisplay) {
+  const std::string saved = folder_ / "saved.png";
+  auto run = std::async(std::launch::async, [&] {
+    return view("120 quit\n", {"--screenshot", saved}, test::asset_path("cube"));
+  });
+  EXPECT_FALSE(display_.window_called("trisect: cube").empty());
+  display_.end();
+  const test::ProgramRun done = run.get();
+  EXPECT_EQ(done.exit_code, 4) << done.out << done.err;
+  EXPECT_EQ(done.err, "trisect: the display has gone, and the window with it.\n");
+  EXPECT_FALSE(std::filesystem::exists(saved));
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+    EXPECT_FALSE(entry.path().filename().string().starts_with(".trisect-")) << entry.path();
+  }
+}
+
 TEST_F(View, EndsAfterSoManyFrames) {
   const test::ProgramRun run =
       test::run_trisect({"view", test::asset_path("cube"), "--frames", "5", "--size", "160x120",
