@@ -25,6 +25,8 @@ nlohmann::ordered_json to_json(const FrameComparison& c) {
   }
   json["color_rmse"] = c.color_rmse;
   json["color_max"] = c.color_max;
+  json["alpha_max"] = c.alpha_max;
+  json["nan_pixels"] = c.nan_pixels;
   // Infinite if no colour differs; JSON has no infinity, so null is written.
   json["psnr"] = c.psnr;
   return json;

@@ -22,11 +22,22 @@ Tolerance tolerance_between(Backend a, Backend b, GlPath gl_path) {
   // Frames differ from the oracle's on edges that two triangles share, where either may be hit, and
   // at pixels that single precision cannot decide. OpenGL's fragment path interpolates its rays,
   // which differ from the kernel's by a few roundings: pixels on an outline or an edge may change.
-  if (either(Backend::oracle)) return {2e-4, 5e-4, Tolerance::kAny, 0.25, Tolerance::kAny};
-  if (either(Backend::opengl) && gl_path == GlPath::fragment) {
-    return {1e-4, 5e-4, Tolerance::kAny, 0.25, Tolerance::kAny};
+  Tolerance tolerance{.nan_pixels = 0.0};
+  if (either(Backend::oracle)) {
+    tolerance.hit_mismatches = 2e-4;
+    tolerance.patch_mismatches = 5e-4;
+    tolerance.color_rmse = 0.25;
+  } else if (either(Backend::opengl) && gl_path == GlPath::fragment) {
+    tolerance.hit_mismatches = 1e-4;
+    tolerance.patch_mismatches = 5e-4;
+    tolerance.color_rmse = 0.25;
+  } else {
+    tolerance.hit_mismatches = 0.0;
+    tolerance.patch_mismatches = 0.0;
+    tolerance.z_differs = 1e-4;
+    tolerance.color_max = 1.0;
   }
-  return {0.0, 0.0, 1e-4, Tolerance::kAny, 1.0};
+  return tolerance;
 }
 
 int crosscheck(const CrosscheckOptions& options) {

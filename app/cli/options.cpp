@@ -202,7 +202,9 @@ void parse_threshold(const std::string& option, const std::string& text, Toleran
       {"patch_mismatches", &tolerance.patch_mismatches},
       {"z_differs", &tolerance.z_differs},
       {"color_rmse", &tolerance.color_rmse},
-      {"color_max", &tolerance.color_max}};
+      {"color_max", &tolerance.color_max},
+      {"alpha_max", &tolerance.alpha_max},
+      {"nan_pixels", &tolerance.nan_pixels}};
   const std::size_t equals = text.find('=');
   for (const auto& [name, member] : members) {
     if (equals == std::string::npos || text.substr(0, equals) != name) continue;
@@ -215,7 +217,7 @@ void parse_threshold(const std::string& option, const std::string& text, Toleran
   }
   throw UsageError(
       fmt::format("{}: '{}' is not NAME=NUMBER with a name of: hit_mismatches, patch_mismatches, "
-                  "z_differs, color_rmse, color_max.",
+                  "z_differs, color_rmse, color_max, alpha_max, nan_pixels.",
                   option, text));
 }
 

@@ -123,7 +123,9 @@ struct CrosscheckOptions {
 struct CompareOptions {
   std::string a;
   std::string b;
-  Tolerance tolerance{0.0, 0.0, Tolerance::kAny, Tolerance::kAny, 1.0};
+  Tolerance tolerance{
+      .hit_mismatches = 0.0, .patch_mismatches = 0.0, .color_max = 1.0, .alpha_max = 1.0};
+  bool exact = false;
   std::string json;
   std::string diff;
 };

@@ -28,10 +28,12 @@ FrameComparison::Depth compare_depth(const Frame& a, const Frame& b) {
     const float za = p.normal_z.w;
     const float zb = q.normal_z.w;
     if (same_bits(za, zb)) ++depth.bit_equal;
-    const double apart = std::abs(static_cast<double>(za) - static_cast<double>(zb));
-    lengths.push_back(apart);
-    ulp.push_back(apart / ulp_of(za));
-    degrees.push_back(degrees_between(glm::dvec3(p.geometric_u), glm::dvec3(q.geometric_u)));
+    const double length = apart(za, zb);
+    lengths.push_back(length);
+    ulp.push_back(length == 0.0 ? 0.0 : length / ulp_of(za));
+    const glm::dvec3 normal(p.geometric_u);
+    const glm::dvec3 other(q.geometric_u);
+    degrees.push_back(normal == other ? 0.0 : degrees_between(normal, other));
   }
   depth.z_apart = quantiles_of(std::move(lengths));
   depth.ulp = quantiles_of(std::move(ulp));
@@ -61,6 +63,8 @@ FrameComparison compare(const Frame& a, const Frame& b) {
   const ColorDifference color = color_difference(a, b);
   result.color_rmse = color.rmse;
   result.color_max = color.largest;
+  result.alpha_max = color.alpha;
+  result.nan_pixels = color.nan_pixels;
   result.psnr = 20.0 * std::log10(255.0 / result.color_rmse);
   if (!a.aovs.empty() && !b.aovs.empty()) result.depth = compare_depth(a, b);
   return result;
@@ -83,6 +87,9 @@ std::vector<std::string> excesses(const FrameComparison& comparison, const Toler
   }
   limit("colour RMSE, 8-bit steps", comparison.color_rmse, tolerance.color_rmse);
   limit("largest colour difference, 8-bit steps", comparison.color_max, tolerance.color_max);
+  limit("largest difference of alpha, 8-bit steps", comparison.alpha_max, tolerance.alpha_max);
+  limit("pixels that are NaN in both, of the pixels",
+        share(comparison.nan_pixels, comparison.pixels), tolerance.nan_pixels);
   return found;
 }
 
@@ -101,10 +108,12 @@ std::string to_text(const FrameComparison& c) {
         d.patch_mismatches, d.bit_equal, d.pixels, list(d.z_apart), list(d.ulp),
         list(d.normal_degrees));
   }
-  return text +
-         fmt::format("\n  colour RMSE {:.3g} and largest difference {:.3g} of 255, PSNR {} dB\n",
-                     c.color_rmse, c.color_max,
-                     std::isinf(c.psnr) ? "infinite" : fmt::format("{:.1f}", c.psnr));
+  text += fmt::format("\n  colour RMSE {:.3g} and largest difference {:.3g} of 255, PSNR {} dB",
+                      c.color_rmse, c.color_max,
+                      std::isinf(c.psnr) ? "infinite" : fmt::format("{:.1f}", c.psnr));
+  if (c.alpha_max != 0.0) text += fmt::format(", alpha apart by up to {:.3g} of 255", c.alpha_max);
+  if (c.nan_pixels > 0) text += fmt::format("\n  {} pixels are NaN in both", c.nan_pixels);
+  return text + "\n";
 }
 
 }  // namespace trisect

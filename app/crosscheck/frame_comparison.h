@@ -30,9 +30,12 @@ struct FrameComparison {
   std::size_t hit_mismatches = 0;  // hit by one only
   std::optional<Depth> depth;
   // Over the three components of all colours, sRGB-encoded, in steps of 8 bits (1/255). NaN if a
-  // colour is.
+  // colour is in one of them.
   double color_rmse = 0.0;
   double color_max = 0.0;  // largest difference of a component
+  double alpha_max = 0.0;  // the same of alpha; an image without it is opaque
+  // Pixels with a colour's component that is NaN in both, which counts as equal.
+  std::size_t nan_pixels = 0;
   double psnr = 0.0;  // peak signal-to-noise ratio, decibels; infinite if the colours are equal
 };
 

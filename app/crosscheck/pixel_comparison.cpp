@@ -27,19 +27,29 @@ void expect_same_size(const Frame& a, const Frame& b) {
                                a.height, b.width, b.height));
 }
 
+double apart(float a, float b) {
+  if (a == b || (std::isnan(a) && std::isnan(b))) return 0.0;
+  return std::abs(static_cast<double>(a) - static_cast<double>(b));
+}
+
 ColorDifference color_difference(const Frame& a, const Frame& b) {
   ColorDifference difference;
   double squares = 0.0;
   for (std::size_t i = 0; i < a.colors.size(); ++i) {
+    const vec4& p = a.colors[i];
+    const vec4& q = b.colors[i];
+    bool both_nan = false;
     for (int k = 0; k < 3; ++k) {
-      const double steps =
-          255.0 * (static_cast<double>(a.colors[i][k]) - static_cast<double>(b.colors[i][k]));
+      const double steps = 255.0 * apart(p[k], q[k]);
       squares += steps * steps;
-      max_propagating_nan(difference.largest, std::abs(steps));
+      max_propagating_nan(difference.largest, steps);
       if (std::isfinite(steps)) {
-        difference.largest_number = std::max(difference.largest_number, std::abs(steps));
+        difference.largest_number = std::max(difference.largest_number, steps);
       }
+      both_nan = both_nan || (std::isnan(p[k]) && std::isnan(q[k]));
     }
+    difference.nan_pixels += both_nan ? 1 : 0;
+    max_propagating_nan(difference.alpha, 255.0 * apart(p.w, q.w));
   }
   difference.rmse = std::sqrt(squares / (3.0 * static_cast<double>(a.colors.size())));
   return difference;

@@ -14,6 +14,8 @@ struct Tolerance {
   double z_differs = kAny;
   double color_rmse = kAny;  // in steps of 8 bits (1/255)
   double color_max = kAny;   // in steps of 8 bits
+  double alpha_max = kAny;   // in steps of 8 bits
+  double nan_pixels = kAny;  // as a fraction of the pixels
 };
 
 }  // namespace trisect

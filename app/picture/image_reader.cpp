@@ -30,15 +30,15 @@ InputError unreadable(const fs::path& path, const std::string& why) {
 }
 
 Frame read_png(const fs::path& path) {
-  const PngPixels pixels = read_png_pixels(path);
+  const PngValues png = read_png_values(path);
   Frame frame;
-  frame.width = pixels.width;
-  frame.height = pixels.height;
-  const std::size_t components = pixels.alpha ? 4 : 3;
-  frame.colors.reserve(pixels.bytes.size() / components);
-  for (std::size_t i = 0; i < pixels.bytes.size(); i += components) {
-    const auto at = [&](std::size_t k) { return static_cast<float>(pixels.bytes[i + k]); };
-    frame.colors.push_back(vec4(at(0), at(1), at(2), pixels.alpha ? at(3) : 255.0F) / 255.0F);
+  frame.width = png.width;
+  frame.height = png.height;
+  const std::size_t components = png.alpha ? 4 : 3;
+  frame.colors.reserve(png.values.size() / components);
+  for (std::size_t i = 0; i < png.values.size(); i += components) {
+    const auto at = [&](std::size_t k) { return static_cast<float>(png.values[i + k]); };
+    frame.colors.push_back(vec4(at(0), at(1), at(2), png.alpha ? at(3) : 65535.0F) / 65535.0F);
   }
   return frame;
 }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -76,13 +77,56 @@ void write_content(png_structp png, png_infop info, std::FILE* file, PngContent&
   png_write_png(png, info, PNG_TRANSFORM_IDENTITY, nullptr);
 }
 
-// The same of reading: the texts of a file.
-void read_texts(png_structp png, png_infop info, std::FILE* file, png_textp* texts, int* count) {
+// The same of reading. These return nothing that C++ destroys.
+
+void read_texts(png_structp png, png_infop info, std::FILE* file) {
   if (setjmp(png_jmpbuf(png)) != 0) return;  // NOLINT(cert-err52-cpp): as libpng has it
   png_init_io(png, file);
   png_read_info(png, info);
-  png_get_text(png, info, texts, count);
 }
+
+void read_rows(png_structp png, png_infop info, std::FILE* file) {
+  if (setjmp(png_jmpbuf(png)) != 0) return;  // NOLINT(cert-err52-cpp): as libpng has it
+  png_init_io(png, file);
+  // The second is what the file has if it does not say.
+  png_set_gamma(png, PNG_DEFAULT_sRGB, PNG_DEFAULT_sRGB);
+  png_read_png(png, info,
+               PNG_TRANSFORM_EXPAND_16 | PNG_TRANSFORM_GRAY_TO_RGB | PNG_TRANSFORM_SWAP_ENDIAN,
+               nullptr);
+}
+
+// A file as libpng has read it.
+class PngReader {
+ public:
+  using Read = void (*)(png_structp, png_infop, std::FILE*);
+
+  // Throws InputError.
+  PngReader(const std::filesystem::path& path, Read read) {
+    std::FILE* stream = std::fopen(path.c_str(), "rb");
+    if (stream == nullptr) complaint_ = std::generic_category().message(errno);
+    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &complaint_, note_error, ignore_warning);
+    info_ = png_ != nullptr ? png_create_info_struct(png_) : nullptr;
+    if (info_ == nullptr) complaint_ = "not enough memory";
+    if (complaint_.empty()) read(png_, info_, stream);
+    if (stream != nullptr) std::fclose(stream);
+    if (complaint_.empty()) return;
+    png_destroy_read_struct(&png_, &info_, nullptr);
+    fail(path, "read", complaint_);
+  }
+  ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
+  PngReader(PngReader&&) = delete;
+  PngReader& operator=(PngReader&&) = delete;
+
+  [[nodiscard]] png_structp png() const { return png_; }
+  [[nodiscard]] png_infop info() const { return info_; }
+
+ private:
+  std::string complaint_;
+  png_structp png_ = nullptr;
+  png_infop info_ = nullptr;
+};
 
 // Latin letters and signs go as they are, the rest as UTF-8.
 png_text text_of(const std::string& name, const std::string& value) {
@@ -128,41 +172,42 @@ void write_png_pixels(PngPixels& pixels, const ImageTexts& texts,
   if (!complaint.empty()) fail(file.target(), "written", complaint);
 }
 
-PngPixels read_png_pixels(const std::filesystem::path& path) {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_file(&image, path.c_str()) == 0) {
-    fail(path, "read", static_cast<const char*>(image.message));
+PngValues read_png_values(const std::filesystem::path& path) {
+  const PngReader file(path, read_rows);
+  const uint32_t width = png_get_image_width(file.png(), file.info());
+  const uint32_t height = png_get_image_height(file.png(), file.info());
+  const bool alpha = png_get_channels(file.png(), file.info()) == 4;
+  PngValues values{width, height, alpha, {}};
+  const std::size_t row_values = std::size_t{width} * (alpha ? 4 : 3);
+  values.values.resize(row_values * height);
+  const png_bytepp rows = png_get_rows(file.png(), file.info());
+  for (std::size_t y = 0; y < height; ++y) {
+    std::memcpy(values.values.data() + y * row_values, rows[y], row_values * sizeof(uint16_t));
   }
-  PngPixels pixels{image.width, image.height, (image.format & PNG_FORMAT_FLAG_ALPHA) != 0, {}};
-  image.format = pixels.alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
-  pixels.bytes.resize(PNG_IMAGE_SIZE(image));
-  if (png_image_finish_read(&image, nullptr, pixels.bytes.data(), 0, nullptr) == 0) {
-    fail(path, "read", static_cast<const char*>(image.message));
+  return values;
+}
+
+PngPixels read_png_pixels(const std::filesystem::path& path) {
+  const PngValues values = read_png_values(path);
+  PngPixels pixels{values.width, values.height, values.alpha, {}};
+  pixels.bytes.reserve(values.values.size());
+  for (const uint16_t value : values.values) {
+    pixels.bytes.push_back(static_cast<uint8_t>((value + 128U) / 257U));
   }
   return pixels;
 }
 
 ImageTexts read_png_texts(const std::filesystem::path& path) {
-  std::string complaint;
-  std::FILE* stream = std::fopen(path.c_str(), "rb");
-  if (stream == nullptr) complaint = std::generic_category().message(errno);
-  png_structp png =
-      png_create_read_struct(PNG_LIBPNG_VER_STRING, &complaint, note_error, ignore_warning);
-  png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
-  if (info == nullptr) complaint = "not enough memory";
+  const PngReader file(path, read_texts);
   png_textp texts = nullptr;
   int count = 0;
-  if (complaint.empty()) read_texts(png, info, stream, &texts, &count);
+  png_get_text(file.png(), file.info(), &texts, &count);
   ImageTexts found;
   const std::string_view keyword(kPngKeyword);
   for (int i = 0; i < count; ++i) {
     const std::string_view key(texts[i].key);
     if (key.starts_with(keyword)) found.emplace_back(key.substr(keyword.size()), texts[i].text);
   }
-  png_destroy_read_struct(&png, &info, nullptr);
-  if (stream != nullptr) std::fclose(stream);
-  if (!complaint.empty()) fail(path, "read", complaint);
   return found;
 }
 

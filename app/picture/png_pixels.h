@@ -29,7 +29,19 @@ struct PngPixels {
 void write_png_pixels(PngPixels& pixels, const ImageTexts& texts,
                       const std::optional<FramePlace>& place, const AtomicFile& file);
 
-// These throw InputError, naming the file, if it cannot be read.
+// Sixteen bits a component, sRGB, from 0 to 65535, else as PngPixels.
+struct PngValues {
+  uint32_t width = 0;
+  uint32_t height = 0;
+  bool alpha = false;
+  std::vector<uint16_t> values;
+};
+
+// These throw InputError, naming the file, if it cannot be read. Of 8 bits or 16, grey or with a
+// palette, interlaced or not: colours that the file says are not sRGB become so, others stay as
+// they are, 8 bits as 257 times their number.
+PngValues read_png_values(const std::filesystem::path& path);
+// Of 16 bits the nearest 8.
 PngPixels read_png_pixels(const std::filesystem::path& path);
 // The texts before the pixels whose names begin with kPngKeyword, without that.
 ImageTexts read_png_texts(const std::filesystem::path& path);

@@ -127,16 +127,15 @@ std::vector<uint32_t> numbers_in(const std::string& text, char between) {
   }
 }
 
-// Where a PNG's pixels belong. Throws InputError if it does not say that.
+// Of a PNG. Throws InputError if it does not say that.
 FramePlace place_of(const fs::path& path, const ImageTexts& texts, const PngPixels& pixels) {
-  const std::vector<uint32_t> size = numbers_in(text_named(texts, "size"), 'x');
-  const std::vector<uint32_t> tile = numbers_in(text_named(texts, "tile"), ',');
-  if (size.size() != 2 || tile.size() != 4 || tile[2] != pixels.width || tile[3] != pixels.height ||
-      !ImagePart{tile[0], tile[1], tile[2], tile[3]}.is_in(size[0], size[1])) {
+  const std::optional<FramePlace> place = place_in(texts);
+  if (!place || text_named(texts, "tile") !=
+                    fmt::format("{},{},{},{}", place->x, place->y, pixels.width, pixels.height)) {
     refuse(path, "does not say which part of which image it is");
   }
-  expect_size(path, size[0], size[1]);
-  return {tile[0], tile[1], size[0], size[1]};
+  expect_size(path, place->image_width, place->image_height);
+  return *place;
 }
 
 void stitch_png(const std::vector<fs::path>& parts, const AtomicFile& file) {
@@ -260,6 +259,16 @@ std::string difference_between(const ImageTexts& a, const ImageTexts& b) {
     }
   }
   return {};
+}
+
+std::optional<FramePlace> place_in(const ImageTexts& attributes) {
+  const std::vector<uint32_t> size = numbers_in(text_named(attributes, "size"), 'x');
+  const std::vector<uint32_t> tile = numbers_in(text_named(attributes, "tile"), ',');
+  if (size.size() != 2 || tile.size() != 4 ||
+      !ImagePart{tile[0], tile[1], tile[2], tile[3]}.is_in(size[0], size[1])) {
+    return std::nullopt;
+  }
+  return FramePlace{tile[0], tile[1], size[0], size[1]};
 }
 
 bool is_whole_image(const fs::path& path) {

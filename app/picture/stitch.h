@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/base/atomic_file.h"
+#include "app/frame/image_part.h"
 #include "app/picture/image_file.h"
 
 namespace trisect {
@@ -17,6 +19,9 @@ namespace trisect {
 // pixel is in none of them; UsageError if the formats are not all `format`.
 void stitch(const std::vector<std::filesystem::path>& parts, ImageFormat format,
             const AtomicFile& file);
+
+// Where a part with these attributes is in its image; nothing if they do not say it.
+std::optional<FramePlace> place_in(const ImageTexts& attributes);
 
 // Whether the file, PNG or EXR, can be read to its end.
 bool is_whole_image(const std::filesystem::path& path);

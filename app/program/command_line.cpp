@@ -209,11 +209,16 @@ Command add_compare(CLI::App& app) {
   command
       .add_option("--threshold", values->thresholds,
                   "The most of it that is well: hit_mismatches and patch_mismatches (parts of the "
-                  "pixels, default 0), color_max (8-bit steps, default 1), color_rmse, z_differs "
-                  "(part of the hits, both default anything)")
+                  "pixels, default 0), color_max and alpha_max (8-bit steps, default 1), "
+                  "color_rmse, z_differs (part of the hits), nan_pixels (part of the pixels; these "
+                  "three default anything)")
       ->group(option_group::kMeasuring)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("NAME=X");
+  command
+      .add_flag("--exact", values->options.exact,
+                "Every number of every channel must have the same bits")
+      ->group(option_group::kMeasuring);
   add_comparison_files(command, values->options.json, values->options.diff);
   return {&command, [values = values] {
             for (const std::string& threshold : values->thresholds) {

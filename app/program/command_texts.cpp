@@ -77,7 +77,9 @@ const std::map<std::string, CommandTexts>& texts() {
         {{"Two pictures, with one that shows where they differ",
           "trisect compare before.png after.png --diff difference.png"},
          {"Allow two of 255 steps of a colour",
-          "trisect compare before.exr after.exr --threshold color_max=2"}}}},
+          "trisect compare before.exr after.exr --threshold color_max=2"},
+         {"Whether all channels are the same, bit for bit",
+          "trisect compare before.exr after.exr --exact"}}}},
       {"trisect crosscheck",
        {{"Prints for every pair of back ends the hits and triangles that differ, how many depths "
          "have the same bits, and how far normals and colours are apart. The exit code is 1 if "

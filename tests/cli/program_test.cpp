@@ -13,6 +13,7 @@
 
 #include "app/base/srgb.h"
 #include "app/picture/image_file.h"
+#include "app/picture/image_reader.h"
 #include "tests/support/exr_reader.h"
 #include "tests/support/file_content.h"
 #include "tests/support/program.h"
@@ -133,6 +134,50 @@ TEST_F(Program, PicksAnAccelerationAndSaysWhich) {
   EXPECT_EQ(accel({"--accel", "bvh"}), "bvh");
   EXPECT_EQ(accel({"--preset", "thesis"}), "list");
   EXPECT_EQ(accel({"--backend", "cpu"}), "list");
+}
+
+TEST_F(Program, ComparesEveryChannelIfItIsAsked) {
+  const auto on_cpu = [&](Words more, const std::string& name) {
+    more.insert(more.end(), {"--backend", "cpu"});
+    return render(more, name);
+  };
+  const auto compared = [&](const char* a, const char* b, Words more = {}) {
+    more.insert(more.begin(), {"compare", folder_ / a, folder_ / b});
+    return run_trisect(more);
+  };
+  ASSERT_EQ(on_cpu({}, "a.exr").exit_code, 0);
+  ASSERT_EQ(on_cpu({"--aov", "color,Z,N,G,patch"}, "less.exr").exit_code, 0);
+  Frame frame = read_image(folder_ / "a.exr");
+  const auto middle = static_cast<std::ptrdiff_t>(frame.aovs.size() / 2);
+  frame.aovs[static_cast<std::size_t>(middle)].geometric_u.w += 0.25F;
+  {
+    AtomicFile file(folder_ / "u.exr");
+    write_exr(frame, file);
+    file.commit();
+  }
+  EXPECT_EQ(compared("a.exr", "a.exr", {"--exact"}).exit_code, 0);
+  // Nothing else looks at the barycentric weights.
+  EXPECT_EQ(compared("a.exr", "u.exr").exit_code, 0);
+  const test::ProgramRun exact =
+      compared("a.exr", "u.exr", {"--exact", "--json", folder_ / "c.json"});
+  EXPECT_EQ(exact.exit_code, 1);
+  EXPECT_NE(exact.out.find("channel U has other bits in 1 pixels"), std::string::npos) << exact.out;
+  std::ifstream file(folder_ / "c.json");
+  const auto json = nlohmann::json::parse(file);
+  EXPECT_EQ(json["channels"]["U"], 1);
+  EXPECT_EQ(json["channels"]["V"], 0);
+  const test::ProgramRun less = compared("a.exr", "less.exr", {"--exact"});
+  EXPECT_EQ(less.exit_code, 1);
+  EXPECT_NE(less.out.find("a.exr has the channel U"), std::string::npos) << less.out;
+  // The same pixels elsewhere in an image.
+  ASSERT_EQ(on_cpu({"--tile", "0,0,2,2"}, "corner.exr").exit_code, 0);
+  ASSERT_EQ(on_cpu({"--tile", "1,0,2,2"}, "beside.exr").exit_code, 0);
+  const test::ProgramRun moved =
+      compared("corner.exr", "beside.exr", {"--threshold", "color_max=255"});
+  EXPECT_EQ(moved.exit_code, 1);
+  EXPECT_NE(moved.out.find("the second at 1,0 in an image of 32x24"), std::string::npos);
+  ASSERT_EQ(on_cpu({}, "a.png").exit_code, 0);
+  EXPECT_EQ(compared("a.exr", "a.png", {"--exact"}).exit_code, 2);
 }
 
 // The acceleration is Vulkan's, whatever it is compared with.

@@ -47,6 +47,45 @@ TEST(FrameComparison, KeepsANan) {
   EXPECT_TRUE(excesses(compare(a, a), {}).empty());
 }
 
+// Pictures are equal to themselves, but what two back ends should not have made is told.
+TEST(FrameComparison, CallsWhatIsNoNumberInBothEqual) {
+  Frame a = grey(4, 3);
+  a.resize(4, 3, true);
+  for (PixelAovs& pixel : a.aovs) {
+    pixel = PixelAovs{};
+    pixel.normal_z.w = std::numeric_limits<float>::quiet_NaN();
+    pixel.geometric_u.x = std::numeric_limits<float>::quiet_NaN();
+  }
+  a.colors[2].y = std::numeric_limits<float>::quiet_NaN();
+  a.colors[3].x = std::numeric_limits<float>::infinity();
+  a.colors[4].w = std::numeric_limits<float>::quiet_NaN();
+  const FrameComparison found = compare(a, a);
+  EXPECT_EQ(found.color_max, 0.0);
+  EXPECT_EQ(found.color_rmse, 0.0);
+  EXPECT_EQ(found.alpha_max, 0.0);
+  EXPECT_EQ(found.nan_pixels, 1U);
+  EXPECT_EQ(found.depth->z_apart.max, 0.0);
+  EXPECT_TRUE(excesses(found, {}).empty());
+  EXPECT_EQ(excesses(found, {.nan_pixels = 0.0}).size(), 1U);
+  EXPECT_NE(to_text(found).find("1 pixels are NaN in both"), std::string::npos);
+  Frame b = a;
+  b.colors[3].x = -b.colors[3].x;
+  EXPECT_EQ(compare(a, b).color_max, std::numeric_limits<double>::infinity());
+}
+
+TEST(FrameComparison, ComparesAlpha) {
+  const Frame a = grey(4, 3);
+  Frame b = a;
+  b.colors[7].w = 0.2F;
+  const FrameComparison found = compare(a, b);
+  EXPECT_NEAR(found.alpha_max, 204.0, 1e-4);
+  EXPECT_EQ(found.color_max, 0.0);
+  EXPECT_TRUE(excesses(found, {}).empty());
+  EXPECT_EQ(excesses(found, {.alpha_max = 1.0}).size(), 1U);
+  b.colors[7].w = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(excesses(compare(a, b), {}).size(), 1U);
+}
+
 TEST(FrameComparison, PicturesAmplifyTheLargestDifferenceThatIsANumber) {
   const Frame a = grey(4, 3);
   Frame b = a;
