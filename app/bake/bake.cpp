@@ -9,6 +9,7 @@
 
 #include "app/bake/patch_bounds.h"
 #include "app/base/error.h"
+#include "app/base/memory.h"
 #include "app/base/parallel_rows.h"
 #include "app/base/rounding.h"
 #include "app/surface/patch_range.h"
@@ -125,6 +126,10 @@ BakedScene bake(const Mesh& mesh, const SurfaceChoice& choice) {
         "the model spans {:g} units; single precision needs it between {:g} and {:g}: scale it.",
         2.0 * scene.extent, smallest, largest));
   }
+  // At least: a patch may be several subpatches, and there may be a tree.
+  expect_memory(static_cast<double>(mesh.triangles.size()) *
+                    static_cast<double>(sizeof(Triangle) + sizeof(SubpatchBounds)),
+                fmt::format("the surface of {} triangles", mesh.triangles.size()));
   scene.triangles.resize(mesh.triangles.size());
   scene.has_colors = !mesh.colors.empty();
   parallel_chunks(mesh.triangles.size(), kChunk, [&](std::size_t first, std::size_t end) {

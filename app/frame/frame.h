@@ -21,14 +21,8 @@ struct Frame {
   // Rays that a kernel left to a later one, added up over all kernels; 0 if they have no queue.
   uint64_t queued_rays = 0;
 
-  void resize(uint32_t new_width, uint32_t new_height, bool with_aovs) {
-    width = new_width;
-    height = new_height;
-    bytes_read = 0;
-    queued_rays = 0;
-    colors.resize(std::size_t{width} * height);
-    aovs.resize(with_aovs ? colors.size() : 0);
-  }
+  // Throws OutOfMemory if the machine has not that much.
+  void resize(uint32_t new_width, uint32_t new_height, bool with_aovs);
 
   [[nodiscard]] std::size_t hits() const {
     std::size_t count = 0;

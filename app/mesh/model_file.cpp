@@ -8,6 +8,7 @@
 
 #include "app/base/error.h"
 #include "app/base/folder_of.h"
+#include "app/base/memory.h"
 #include "app/mesh/assimp_file.h"
 #include "app/mesh/file_bytes.h"
 #include "app/mesh/gltf_file.h"
@@ -85,6 +86,10 @@ const char* format_name(ModelFormat format) {
 }
 
 PolygonModel read_model(const std::filesystem::path& path, ModelFormat* format) {
+  std::error_code unknown;
+  const auto size = static_cast<double>(std::filesystem::file_size(path, unknown));
+  // What it took of files of 450,000 triangles (docs/formats.md).
+  if (!unknown) expect_memory(6.0 * size, "reading " + path.string());
   std::string bytes = read_bytes(path);
   if (bytes.empty()) throw InputError(path.string() + ": is empty.");
   const ModelFormat found = format_of(bytes, path);

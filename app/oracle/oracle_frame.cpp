@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include "app/base/memory.h"
 #include "app/base/parallel_rows.h"
 #include "app/oracle/oracle.h"
 
@@ -8,7 +11,10 @@ std::optional<OracleFrame> oracle_frame(
     const std::function<OracleRay(uint32_t x, uint32_t y)>& ray_of,
     const std::function<double(const OracleRay&)>& motion_of, const Progress& progress) {
   OracleFrame frame{width, height, {}};
-  frame.pixels.resize(std::size_t{width} * height);
+  const std::size_t pixels = std::size_t{width} * height;
+  expect_memory(static_cast<double>(pixels) * sizeof(frame.pixels.front()),
+                fmt::format("the oracle's image of {}x{} pixels", width, height));
+  frame.pixels.resize(pixels);
   const auto row = [&](uint32_t y, const Stopped& stopped) {
     for (uint32_t x = 0; x < width && !stopped; ++x) {
       const OracleRay ray = ray_of(x, y);

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "app/base/error.h"
+#include "app/base/memory.h"
 #include "app/base/srgb.h"
 #include "app/picture/image_file.h"
 #include "app/picture/png_pixels.h"
@@ -173,9 +174,13 @@ void write_png_pixels(PngPixels& pixels, const ImageTexts& texts,
 }
 
 PngValues read_png_values(const std::filesystem::path& path) {
+  const PngReader head(path, read_texts);
+  const uint32_t width = png_get_image_width(head.png(), head.info());
+  const uint32_t height = png_get_image_height(head.png(), head.info());
+  // Up to four numbers of 16 bits a pixel, libpng's and ours.
+  expect_memory(16.0 * width * height,
+                fmt::format("{}: an image of {}x{} pixels", path.string(), width, height));
   const PngReader file(path, read_rows);
-  const uint32_t width = png_get_image_width(file.png(), file.info());
-  const uint32_t height = png_get_image_height(file.png(), file.info());
   const bool alpha = png_get_channels(file.png(), file.info()) == 4;
   PngValues values{width, height, alpha, {}};
   const std::size_t row_values = std::size_t{width} * (alpha ? 4 : 3);
