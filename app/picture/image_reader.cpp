@@ -4,7 +4,6 @@
 #include <ImfDoubleAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfInputFile.h>
 #include <ImfIntAttribute.h>
 #include <ImfStringAttribute.h>
 #include <ImfVecAttribute.h>
@@ -18,6 +17,7 @@
 #include "app/base/error.h"
 #include "app/base/srgb.h"
 #include "app/picture/image_file.h"
+#include "app/picture/open_exr.h"
 #include "app/picture/png_pixels.h"
 
 namespace trisect {
@@ -95,7 +95,7 @@ void insert(Imf::FrameBuffer& buffer, const Slot& slot, const Imath::Box2i& wind
 
 Frame read_exr(const fs::path& path) {
   try {
-    Imf::InputFile file(path.c_str());
+    Imf::InputFile file = open_exr(path);
     const Imath::Box2i window = file.header().dataWindow();
     Frame frame;
     frame.resize(static_cast<uint32_t>(window.max.x - window.min.x + 1),
@@ -129,7 +129,7 @@ Frame read_exr(const fs::path& path) {
 
 ImageTexts exr_attributes(const fs::path& path) {
   try {
-    const Imf::InputFile file(path.c_str());
+    const Imf::InputFile file = open_exr(path);
     ImageTexts found;
     const Imf::Header& header = file.header();
     for (auto entry = header.begin(); entry != header.end(); ++entry) {

@@ -96,6 +96,15 @@ png_text text_of(const std::string& name, const std::string& value) {
   return text;
 }
 
+// Whether a file can hold so many pixels: a byte of it unpacks to 1032 at most, of eight pixels
+// each.
+bool can_hold(const std::filesystem::path& path, const png_image& image) {
+  std::error_code error;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+  constexpr std::uintmax_t most_packed = 1032;
+  return error || std::uintmax_t{image.width} * image.height / 8 <= most_packed * bytes;
+}
+
 }  // namespace
 
 void write_png_pixels(PngPixels& pixels, const ImageTexts& texts,
@@ -133,6 +142,10 @@ PngPixels read_png_pixels(const std::filesystem::path& path) {
   image.version = PNG_IMAGE_VERSION;
   if (png_image_begin_read_from_file(&image, path.c_str()) == 0) {
     fail(path, "read", static_cast<const char*>(image.message));
+  }
+  if (!can_hold(path, image)) {
+    png_image_free(&image);
+    fail(path, "read", "it is cut off");
   }
   PngPixels pixels{image.width, image.height, (image.format & PNG_FORMAT_FLAG_ALPHA) != 0, {}};
   image.format = pixels.alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;

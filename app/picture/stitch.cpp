@@ -3,7 +3,6 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <fmt/format.h>
 
@@ -18,6 +17,7 @@
 
 #include "app/base/error.h"
 #include "app/picture/image_reader.h"
+#include "app/picture/open_exr.h"
 #include "app/picture/png_pixels.h"
 
 namespace trisect {
@@ -221,7 +221,7 @@ void stitch_exr(const std::vector<fs::path>& parts, const AtomicFile& file) {
   PartTexts part_texts;
   for (const fs::path& path : parts) {
     part_texts.add(path, read_attributes(path));
-    Imf::InputFile part(path.c_str());
+    Imf::InputFile part = open_exr(path);
     const ImagePart place = part_of(path, part.header());
     if (!header) {
       header = part.header();
@@ -267,7 +267,7 @@ bool is_whole_image(const fs::path& path) {
     if (image_format(path) == ImageFormat::png) {
       read_png_pixels(path);
     } else {
-      Imf::InputFile file(path.c_str());
+      Imf::InputFile file = open_exr(path);
       Imf::Header whole = file.header();
       whole.displayWindow() = whole.dataWindow();
       ExrChannels(whole).read(file);
