@@ -83,14 +83,11 @@ std::vector<Slot> aov_slots(Frame& frame) {
   return slots;
 }
 
-// OpenEXR addresses pixels by their coordinates in the data window, which need not begin at (0, 0).
 void insert(Imf::FrameBuffer& buffer, const Slot& slot, const Imath::Box2i& window,
             std::size_t width) {
-  const std::size_t row = slot.stride * width;
-  char* base = slot.first - window.min.x * static_cast<std::ptrdiff_t>(slot.stride) -
-               window.min.y * static_cast<std::ptrdiff_t>(row);
   // The fill value 1 is the alpha of a file without alpha.
-  buffer.insert(slot.name, Imf::Slice(slot.type, base, slot.stride, row, 1, 1, 1.0));
+  buffer.insert(slot.name, Imf::Slice::Make(slot.type, slot.first, window, slot.stride,
+                                            slot.stride * width, 1, 1, 1.0));
 }
 
 Frame read_exr(const fs::path& path) {

@@ -180,9 +180,7 @@ class ExrChannels {
       const std::size_t pixel = type == Imf::HALF ? 2 : 4;
       std::vector<char>& bytes = bytes_.emplace_back(width * height * pixel);
       const std::size_t row = pixel * width;
-      char* base = bytes.data() - window_.min.x * static_cast<std::ptrdiff_t>(pixel) -
-                   window_.min.y * static_cast<std::ptrdiff_t>(row);
-      slices_.insert(at.name(), Imf::Slice(type, base, pixel, row));
+      slices_.insert(at.name(), Imf::Slice::Make(type, bytes.data(), window_, pixel, row));
     }
   }
 
