@@ -6,13 +6,18 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
+#include <algorithm>
 #include <assimp/Importer.hpp>
+#include <charconv>
 #include <cstddef>
 #include <optional>
+#include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "app/base/error.h"
+#include "app/mesh/obj_text.h"
 
 namespace trisect {
 namespace {
@@ -148,10 +153,32 @@ class AssimpScene {
   std::size_t lines_ = 0;
 };
 
+// Refuses a PLY file whose header claims more of something than there are bytes: Assimp would look
+// for all of them.
+void expect_ply_counts(std::string_view bytes, const std::string& name) {
+  std::string_view rest = bytes;
+  while (!rest.empty()) {
+    std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+    const std::string_view key = take_word(line);
+    if (key == "end_header") return;
+    if (key != "element") continue;
+    const std::string_view what = take_word(line);
+    const std::string_view word = take_word(line);
+    std::size_t count = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
+    if (error != std::errc() || end != word.data() + word.size() || count > bytes.size()) {
+      throw InputError(fmt::format("{}: its header claims '{}' of '{}', which it has no room for.",
+                                   name, word, what));
+    }
+  }
+}
+
 }  // namespace
 
 PolygonModel parse_by_assimp(std::string bytes, const std::string& format,
                              const std::string& name) {
+  if (format == "ply") expect_ply_counts(bytes, name);
   PolygonModel model;
   {
     Assimp::Importer importer;

@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cstring>
 #include <limits>
+#include <system_error>
 #include <utility>
 
 #include "app/base/error.h"
@@ -73,6 +74,9 @@ std::string decoded_percent(const std::string& text) {
   }
   return plain;
 }
+
+// EXT_meshopt_compression packs no more than so many bytes into one: 16 equal bytes into 2 bits.
+constexpr std::size_t kMostPacked = 64;
 
 uint32_t word_at(std::string_view bytes, std::size_t at) {
   uint32_t word = 0;
@@ -146,9 +150,13 @@ const json* extension_of(const json& object, const char* name) {
   return found == extensions->end() ? nullptr : &*found;
 }
 
+std::string shown(const json& value) {
+  return value.is_number() ? value.dump() : value.type_name();
+}
+
 std::size_t whole(const json& number) {
   if (!number.is_number_unsigned()) {
-    throw json::other_error::create(500, "a whole number was expected, not " + number.dump(),
+    throw json::other_error::create(500, "a whole number was expected, not " + shown(number),
                                     &number);
   }
   return number.get<std::size_t>();
@@ -160,7 +168,8 @@ std::size_t whole_or(const json& object, const char* key, std::size_t otherwise)
 }
 
 // Binary glTF: a header of twelve bytes, then chunks of a length, a type and bytes.
-Data::Data(std::string_view bytes, std::filesystem::path path) : path_(std::move(path)) {
+Data::Data(std::string_view bytes, std::filesystem::path path)
+    : path_(std::move(path)), size_(bytes.size()) {
   if (!bytes.starts_with("glTF")) {
     root_ = json::parse(bytes);
     return;
@@ -229,6 +238,9 @@ Table Data::table(std::size_t index) {
     }
     read(place, rows, table, index);
   } else {
+    if (rows > most_rows_without_view()) {
+      fail(fmt::format("accessor {} has too many elements for a file of this size", index));
+    }
     table.numbers.assign(rows * table.columns, 0.0);
   }
   if (accessor.contains("sparse")) replace_some(accessor.at("sparse"), place, table, index);
@@ -247,6 +259,26 @@ std::string_view Data::buffer(std::size_t index) {
   return binary_;
 }
 
+// The zeros of an accessor without a view take no room in the file, but other numbers of the same
+// vertices do: a file has more than one byte for so many elements.
+std::size_t Data::most_rows_without_view() const {
+  std::size_t bytes = size_;
+  const std::size_t buffers = root_.contains("buffers") ? root_.at("buffers").size() : 0;
+  for (std::size_t i = 0; i < buffers; ++i) {
+    const auto file = file_of(element("buffers", i).value("uri", std::string()));
+    std::error_code error;
+    const std::uintmax_t size = file ? std::filesystem::file_size(*file, error) : 0;
+    if (!error) bytes += size;
+  }
+  return kMostPacked * bytes;
+}
+
+// The file that a URI names, if it is in the model's folder or below.
+std::optional<std::filesystem::path> Data::file_of(const std::string& uri) const {
+  if (uri.starts_with("data:")) return std::nullopt;
+  return file_below(folder_of(path_), decoded_percent(uri));
+}
+
 std::string Data::read_uri(const std::string& uri, std::size_t index) {
   if (uri.starts_with("data:")) {
     constexpr std::string_view mark = ";base64,";
@@ -254,7 +286,7 @@ std::string Data::read_uri(const std::string& uri, std::size_t index) {
     if (begin == std::string::npos) fail(fmt::format("buffer {} has no base64 data", index));
     return decoded_base64(std::string_view(uri).substr(begin + mark.size()));
   }
-  const auto file = file_below(folder_of(path_), decoded_percent(uri));
+  const auto file = file_of(uri);
   if (!file) fail("names a buffer outside its folder");
   std::string bytes = read_bytes(*file);
   files_.push_back(*file);
@@ -282,6 +314,9 @@ std::string_view Data::unpacked(std::size_t index, const json& packed) {
   const bool is_index_stride = stride == 2 || stride == 4;
   if (count > 0xffffffffU || !(mode == "ATTRIBUTES" ? is_vertex_stride : is_index_stride)) {
     fail(fmt::format("buffer view {} is packed in an unknown way", index));
+  }
+  if (count * stride > kMostPacked * bytes.size()) {
+    fail(fmt::format("buffer view {} cannot be unpacked", index));
   }
   std::string plain(count * stride, '\0');
   const auto* from = reinterpret_cast<const unsigned char*>(bytes.data());

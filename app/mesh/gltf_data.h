@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,10 @@ namespace trisect::gltf {
 
 // An extension of an object, or null.
 const nlohmann::json* extension_of(const nlohmann::json& object, const char* name);
+
+// What a message shows of a value: a number as it is, of anything else its type. json::dump() calls
+// itself for each array within an array, for which a file may have no end of them.
+std::string shown(const nlohmann::json& value);
 
 // A number that must be whole and not negative. Throws json::exception otherwise.
 std::size_t whole(const nlohmann::json& number);
@@ -61,6 +66,8 @@ class Data {
 
  private:
   std::string_view buffer(std::size_t index);
+  [[nodiscard]] std::size_t most_rows_without_view() const;
+  [[nodiscard]] std::optional<std::filesystem::path> file_of(const std::string& uri) const;
   std::string read_uri(const std::string& uri, std::size_t index);
   std::string_view part(std::size_t index, std::size_t offset, std::size_t size);
   std::string_view unpacked(std::size_t index, const nlohmann::json& packed);
@@ -78,6 +85,7 @@ class Data {
                     std::size_t accessor);
 
   std::filesystem::path path_;
+  std::size_t size_;  // of the file
   nlohmann::json root_;
   std::string_view binary_;                     // the bytes in a binary file
   std::map<std::size_t, std::string> buffers_;  // those with a URI

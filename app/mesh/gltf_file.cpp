@@ -441,10 +441,11 @@ class GltfScene {
       for (std::size_t k = 0; k < 4 * count; ++k) {
         const double weight = weights->numbers[k];
         if (weight == 0.0) continue;
-        if (!(numbers->numbers[k] < static_cast<double>(joints.size()))) {
+        const double joint = numbers->numbers[k];
+        if (!(joint >= 0.0 && joint < static_cast<double>(joints.size()))) {
           data_.fail("a vertex names a joint that its skin does not have");
         }
-        bones[k / 4] += joints[static_cast<std::size_t>(numbers->numbers[k])] * weight;
+        bones[k / 4] += joints[static_cast<std::size_t>(joint)] * weight;
         sums[k / 4] += weight;
       }
     }
@@ -473,7 +474,7 @@ PolygonModel parse_gltf(std::string_view bytes, const std::filesystem::path& pat
     }
     // The first glTF had a number here.
     const json& given = data.root().at("asset").at("version");
-    const std::string version = given.is_string() ? given.get<std::string>() : given.dump();
+    const std::string version = given.is_string() ? given.get<std::string>() : gltf::shown(given);
     if (!version.starts_with("2.")) {
       data.fail(fmt::format("is glTF {}; only glTF 2 is read", version));
     }

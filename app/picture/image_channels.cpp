@@ -12,6 +12,7 @@
 
 #include "app/base/error.h"
 #include "app/picture/image_reader.h"
+#include "app/picture/open_exr.h"
 #include "app/picture/png_pixels.h"
 #include "app/picture/stitch.h"
 
@@ -28,7 +29,7 @@ bool is_exr(const fs::path& path) {
 template <typename Use>
 auto with_exr(const fs::path& path, const Use& use) {
   try {
-    Imf::InputFile file(path.c_str());
+    Imf::InputFile file = open_exr(path);
     return use(file);
   } catch (const InputError&) {
     throw;

@@ -4,7 +4,6 @@
 #include <ImfDoubleAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfInputFile.h>
 #include <ImfIntAttribute.h>
 #include <ImfStringAttribute.h>
 #include <ImfVecAttribute.h>
@@ -18,6 +17,7 @@
 #include "app/base/error.h"
 #include "app/base/srgb.h"
 #include "app/picture/image_file.h"
+#include "app/picture/open_exr.h"
 #include "app/picture/png_pixels.h"
 
 namespace trisect {
@@ -83,19 +83,16 @@ std::vector<Slot> aov_slots(Frame& frame) {
   return slots;
 }
 
-// OpenEXR addresses pixels by their coordinates in the data window, which need not begin at (0, 0).
 void insert(Imf::FrameBuffer& buffer, const Slot& slot, const Imath::Box2i& window,
             std::size_t width) {
-  const std::size_t row = slot.stride * width;
-  char* base = slot.first - window.min.x * static_cast<std::ptrdiff_t>(slot.stride) -
-               window.min.y * static_cast<std::ptrdiff_t>(row);
   // The fill value 1 is the alpha of a file without alpha.
-  buffer.insert(slot.name, Imf::Slice(slot.type, base, slot.stride, row, 1, 1, 1.0));
+  buffer.insert(slot.name, Imf::Slice::Make(slot.type, slot.first, window, slot.stride,
+                                            slot.stride * width, 1, 1, 1.0));
 }
 
 Frame read_exr(const fs::path& path) {
   try {
-    Imf::InputFile file(path.c_str());
+    Imf::InputFile file = open_exr(path);
     const Imath::Box2i window = file.header().dataWindow();
     Frame frame;
     frame.resize(static_cast<uint32_t>(window.max.x - window.min.x + 1),
@@ -129,7 +126,7 @@ Frame read_exr(const fs::path& path) {
 
 ImageTexts exr_attributes(const fs::path& path) {
   try {
-    const Imf::InputFile file(path.c_str());
+    const Imf::InputFile file = open_exr(path);
     ImageTexts found;
     const Imf::Header& header = file.header();
     for (auto entry = header.begin(); entry != header.end(); ++entry) {

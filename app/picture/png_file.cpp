@@ -141,6 +141,15 @@ png_text text_of(const std::string& name, const std::string& value) {
   return text;
 }
 
+// Whether a file can hold so many pixels: a byte of it unpacks to 1032 at most, of eight pixels
+// each.
+bool can_hold(const std::filesystem::path& path, uint32_t width, uint32_t height) {
+  std::error_code error;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+  constexpr std::uintmax_t most_packed = 1032;
+  return error || std::uintmax_t{width} * height / 8 <= most_packed * bytes;
+}
+
 }  // namespace
 
 void write_png_pixels(PngPixels& pixels, const ImageTexts& texts,
@@ -177,6 +186,7 @@ PngValues read_png_values(const std::filesystem::path& path) {
   const PngReader head(path, read_texts);
   const uint32_t width = png_get_image_width(head.png(), head.info());
   const uint32_t height = png_get_image_height(head.png(), head.info());
+  if (!can_hold(path, width, height)) fail(path, "read", "it is cut off");
   // Up to four numbers of 16 bits a pixel, libpng's and ours.
   expect_memory(16.0 * width * height,
                 fmt::format("{}: an image of {}x{} pixels", path.string(), width, height));

@@ -3,7 +3,6 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <fmt/format.h>
 
@@ -18,6 +17,7 @@
 
 #include "app/base/error.h"
 #include "app/picture/image_reader.h"
+#include "app/picture/open_exr.h"
 #include "app/picture/png_pixels.h"
 
 namespace trisect {
@@ -179,9 +179,7 @@ class ExrChannels {
       const std::size_t pixel = type == Imf::HALF ? 2 : 4;
       std::vector<char>& bytes = bytes_.emplace_back(width * height * pixel);
       const std::size_t row = pixel * width;
-      char* base = bytes.data() - window_.min.x * static_cast<std::ptrdiff_t>(pixel) -
-                   window_.min.y * static_cast<std::ptrdiff_t>(row);
-      slices_.insert(at.name(), Imf::Slice(type, base, pixel, row));
+      slices_.insert(at.name(), Imf::Slice::Make(type, bytes.data(), window_, pixel, row));
     }
   }
 
@@ -220,7 +218,7 @@ void stitch_exr(const std::vector<fs::path>& parts, const AtomicFile& file) {
   PartTexts part_texts;
   for (const fs::path& path : parts) {
     part_texts.add(path, read_attributes(path));
-    Imf::InputFile part(path.c_str());
+    Imf::InputFile part = open_exr(path);
     const ImagePart place = part_of(path, part.header());
     if (!header) {
       header = part.header();
@@ -276,7 +274,7 @@ bool is_whole_image(const fs::path& path) {
     if (image_format(path) == ImageFormat::png) {
       read_png_pixels(path);
     } else {
-      Imf::InputFile file(path.c_str());
+      Imf::InputFile file = open_exr(path);
       Imf::Header whole = file.header();
       whole.displayWindow() = whole.dataWindow();
       ExrChannels(whole).read(file);
