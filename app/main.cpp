@@ -2,10 +2,14 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include "app/base/error.h"
+#include "app/base/message.h"
 #include "app/cli/interrupt.h"
+#include "app/cli/standard_output.h"
 #include "app/program/command_line.h"
 
 namespace trisect {
@@ -13,7 +17,8 @@ namespace {
 
 int fail(int code, const std::string& message) {
   ends_in_order();
-  std::fprintf(stderr, "trisect: %s\n", message.c_str());
+  const std::string line = message_line("trisect: " + message) + "\n";
+  std::fwrite(line.data(), 1, line.size(), stderr);
   return code;
 }
 
@@ -23,6 +28,7 @@ int fail(int code, const std::string& message) {
 int main(int argc, char** argv) {
   using namespace trisect;  // NOLINT(google-build-using-namespace): main's own
   try {
+    keep_standard_files();
     catch_interrupts();
     return CommandLine().run(argc, argv);
   } catch (const UsageError& error) {
@@ -39,6 +45,10 @@ int main(int argc, char** argv) {
     return fail(exit_interrupted, error.what());
   } catch (const std::bad_alloc&) {
     return fail(exit_out_of_memory, kNoMemory);
+  } catch (const std::length_error&) {
+    return fail(exit_out_of_memory, kNoMemory);  // more than there can be of memory
+  } catch (const std::system_error& error) {
+    return fail(exit_bad_input, reason_of(error.what()) + ".");  // the system's, not the program's
   } catch (const std::exception& error) {
     return fail(exit_internal, std::string("internal error: ") + error.what());
   }

@@ -1,11 +1,11 @@
 #include "app/bench/stress_table.h"
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "app/base/error.h"
+#include "app/base/read_file.h"
 #include "app/cli/hardcases_report.h"
 #include "app/report/columns.h"
 
@@ -14,10 +14,9 @@ namespace trisect::bench {
 using report::Value;
 
 StressTable read_stress_table(const std::string& file) {
-  std::ifstream in(file);
-  if (!in) throw InputError(file + ": cannot be read.");
+  const std::string text = read_file(file);
   try {
-    const Value json = Value::parse(in);
+    const Value json = Value::parse(text);
     StressTable result;
     result.device =
         json.at("device").get<std::string>() + ", " + json.at("driver").get<std::string>();

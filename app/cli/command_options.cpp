@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/base/message.h"
 #include "app/cli/option_groups.h"
 #include "app/cli/suggestions.h"
 
@@ -10,6 +11,16 @@ namespace trisect {
 CLI::Validator not_empty() {
   return CLI::Validator(
       [](const std::string& text) -> std::string { return text.empty() ? "is empty" : ""; }, "");
+}
+
+std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
+  const std::vector<std::string> words = app.remaining(true);
+  const bool is_of_words = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
+                           dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+  // Words that are not known may be what is missing, misspelt.
+  if (!is_of_words || words.empty()) return reason_of(error.what());
+  return fmt::format("The following argument{} not expected: {}",
+                     words.size() == 1 ? " was" : "s were", fmt::join(words, " "));
 }
 
 CLI::Validator one_of(const std::vector<std::string>& names) {
@@ -36,6 +47,7 @@ void add_models(CLI::App& command, std::vector<std::string>& models) {
       ->group(option_group::kModel)
       ->required()
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->check(not_empty())
       ->check(suggest_models());
 }
 

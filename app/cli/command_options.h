@@ -32,6 +32,10 @@ CLI::Validator number_from_to(Number low, Number high) {
 
 CLI::Validator not_empty();
 
+// What is wrong with words that an app could not parse, which it threw. CLI11 names the words that
+// it does not know from the last to the first; here they are in the order in which they were given.
+std::string fault_of(const CLI::App& app, const CLI::ParseError& error);
+
 // Accepts these names only, and has shells offer them.
 CLI::Validator one_of(const std::vector<std::string>& names);
 

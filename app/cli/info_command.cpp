@@ -10,10 +10,12 @@
 #include <vector>
 
 #include "app/base/error.h"
+#include "app/base/message.h"
 #include "app/cli/commands.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/json_text.h"
 #include "app/cli/model_facts.h"
+#include "app/cli/named.h"
 #include "app/cli/output.h"
 #include "app/cli/progress_line.h"
 #include "app/mesh/mesh_builder.h"
@@ -43,7 +45,7 @@ Model examine(const InfoOptions& options) {
   model.file_bytes = std::filesystem::file_size(options.model, unused);
   stop_if_interrupted();
   model.built = build_mesh(model.polygons, options.model, options.mesh);
-  model.facts = facts_of(model.built.mesh, options.surface);
+  model.facts = named(options.model, [&] { return facts_of(model.built.mesh, options.surface); });
   return model;
 }
 
@@ -56,14 +58,6 @@ const char* source_name(NormalSource source) {
     default:
       return "file";
   }
-}
-
-// A name of a file as one line for a terminal.
-std::string printable(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  }
-  return text;
 }
 
 // Polygons of each mesh of the file, by its name.
@@ -206,12 +200,12 @@ void print(const InfoOptions& options, const Model& model) {
   const auto megabytes = [](std::size_t bytes) {
     return fmt::format("{:.3g} MB", static_cast<double>(bytes) / 1e6);
   };
-  row("file", fmt::format("{}, {}, {}", options.model, format_name(model.format),
+  row("file", fmt::format("{}, {}, {}", escaped(options.model), format_name(model.format),
                           megabytes(model.file_bytes)));
   const auto meshes = meshes_of(model.polygons);
   for (std::size_t i = 0; i < std::min(meshes.size(), kPrintedMeshes); ++i) {
     row(i == 0 ? "meshes" : "",
-        fmt::format("\"{}\", {} polygons", printable(meshes[i].first), meshes[i].second));
+        fmt::format("\"{}\", {} polygons", escaped(meshes[i].first), meshes[i].second));
   }
   if (meshes.size() > kPrintedMeshes) {
     row("", fmt::format("and {} more", meshes.size() - kPrintedMeshes));
@@ -219,7 +213,7 @@ void print(const InfoOptions& options, const Model& model) {
   row("polygons", fmt::format("{}: {} triangles, {} without area dropped, {} vertices",
                               model.polygons.sizes.size(), report.triangles,
                               report.degenerate_dropped, report.vertices));
-  for (const std::string& note : report.notes) row("", note);
+  for (const std::string& note : report.notes) row("", escaped(note));
   if (report.turned > 0) row("", fmt::format("{} triangles turned around", report.turned));
   row("bounds", fmt::format("{:.6g},{:.6g},{:.6g} to {:.6g},{:.6g},{:.6g}; radius {:.6g}",
                             facts.low.x, facts.low.y, facts.low.z, facts.high.x, facts.high.y,

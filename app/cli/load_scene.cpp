@@ -13,6 +13,7 @@
 #include "app/cli/camera_path.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/model_sha256.h"
+#include "app/cli/named.h"
 #include "app/cli/output.h"
 #include "app/cli/progress_line.h"
 #include "app/frame/supersampling.h"
@@ -106,8 +107,10 @@ LoadedScene load_scene(const RenderOptions& options) {
   say("{}: {}\n", options.model, describe(built.report));
   const SurfaceChoice choice{options.surface, options.alpha, options.shell};
   const Stopwatch watch;
-  loaded.scene = options.solver == SOLVER_ROBUST ? bake_showing_progress(built.mesh, choice)
-                                                 : bake(built.mesh, choice);
+  loaded.scene = named(options.model, [&] {
+    return options.solver == SOLVER_ROBUST ? bake_showing_progress(built.mesh, choice)
+                                           : bake(built.mesh, choice);
+  });
   loaded.bake_ms = watch.milliseconds();
   detail("baked in {:.1f} ms: {} patches, {} subpatches, {} bytes on a device\n", loaded.bake_ms,
          loaded.scene.triangles.size(), loaded.scene.subpatches.size(), device_bytes(loaded.scene));

@@ -3,15 +3,15 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include "app/base/error.h"
+#include "app/base/message.h"
+#include "app/base/read_file.h"
 #include "app/cli/distinct_files.h"
+#include "app/cli/standard_output.h"
 
 namespace trisect {
 namespace {
@@ -21,14 +21,6 @@ enum class Told { standard_output, standard_error, nothing };
 // A process has one standard output.
 Told told = Told::standard_output;
 bool is_verbose = false;
-
-void write_to(std::FILE* stream, std::string_view bytes) {
-  errno = 0;
-  const std::size_t written = std::fwrite(bytes.data(), 1, bytes.size(), stream);
-  if (written == bytes.size() && std::fflush(stream) == 0) return;
-  throw InputError(fmt::format("standard output: cannot be written: {}.",
-                               std::generic_category().message(errno)));
-}
 
 // Where an output waits for being whole before it goes to standard output.
 std::filesystem::path waiting_place() {
@@ -44,6 +36,13 @@ void make_folder(const std::filesystem::path& file) {
     throw InputError(fmt::format("{}: the folder cannot be made: {}.", file.parent_path().string(),
                                  error.message()));
   }
+}
+
+// A file without a name, as AtomicFile's are at first, can be where the name cannot.
+void expect_possible_name(const std::string& file) {
+  std::error_code error;
+  if (std::filesystem::exists(file, error) || !error) return;
+  throw InputError(fmt::format("{}: cannot be written: {}.", file, error.message()));
 }
 
 }  // namespace
@@ -70,12 +69,15 @@ void be_verbose() {
 }
 
 void tell_detail(std::string_view text) {
-  if (is_verbose) std::fwrite(text.data(), 1, text.size(), stderr);
+  if (!is_verbose) return;
+  const std::string shown = escaped_lines(text);
+  std::fwrite(shown.data(), 1, shown.size(), stderr);
 }
 
 void tell(std::string_view text) {
-  if (told == Told::standard_output) write_to(stdout, text);
-  if (told == Told::standard_error) std::fwrite(text.data(), 1, text.size(), stderr);
+  const std::string shown = escaped_lines(text);
+  if (told == Told::standard_output) write_standard_output(shown);
+  if (told == Told::standard_error) std::fwrite(shown.data(), 1, shown.size(), stderr);
 }
 
 ImageFormat output_format(const std::string& name) {
@@ -83,7 +85,10 @@ ImageFormat output_format(const std::string& name) {
 }
 
 Output::Output(const std::string& name) : is_standard_(name == kStandardOutput) {
-  if (!is_standard_) make_folder(name);
+  if (!is_standard_) {
+    make_folder(name);
+    expect_possible_name(name);
+  }
   file_.emplace(is_standard_ ? waiting_place() : std::filesystem::path(name));
 }
 
@@ -92,9 +97,7 @@ void Output::commit() {
     file_->commit();
     return;
   }
-  std::ifstream stream(file_->temporary(), std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  write_to(stdout, bytes);
+  write_standard_output(read_file(file_->temporary()));
 }
 
 OptionalOutput::OptionalOutput(const std::string& name) {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <utility>
 
+#include "app/base/message.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/output.h"
 
@@ -19,8 +19,8 @@ std::string duration_text(double seconds) {
   return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
 }
 
-ProgressLine::ProgressLine(std::string step, uint64_t total)
-    : step_(std::move(step)), total_(static_cast<double>(total)) {}
+ProgressLine::ProgressLine(const std::string& step, uint64_t total)
+    : step_(message_line(step)), total_(static_cast<double>(total)) {}
 
 ProgressLine::~ProgressLine() {
   if (next_ > 1.0) std::fputs("\r\033[K", stderr);
@@ -44,7 +44,7 @@ bool ProgressLine::show(double done) {
   return true;
 }
 
-BusyLine::BusyLine(std::string step) : step_(std::move(step)) {
+BusyLine::BusyLine(const std::string& step) : step_(message_line(step)) {
   if (shows_progress()) thread_ = std::thread([this] { show_until_ended(); });
 }
 

@@ -18,7 +18,7 @@ std::string duration_text(double seconds);
 // shows_progress().
 class ProgressLine {
  public:
-  explicit ProgressLine(std::string step, uint64_t total = 1);
+  explicit ProgressLine(const std::string& step, uint64_t total = 1);
   // Wipes the line.
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
@@ -41,7 +41,7 @@ class ProgressLine {
 // shown while the object lives, under the conditions of ProgressLine.
 class BusyLine {
  public:
-  explicit BusyLine(std::string step);
+  explicit BusyLine(const std::string& step);
   // Wipes the line.
   ~BusyLine();
   BusyLine(const BusyLine&) = delete;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/base/error.h"
+#include "app/base/message.h"
 #include "app/base/stopwatch.h"
 #include "app/cli/cache_folder.h"
 #include "app/cli/commands.h"
@@ -103,7 +104,9 @@ class Renderer {
   int close() {
     const std::vector<std::string> messages =
         tracer_ ? tracer_->close() : std::vector<std::string>();
-    for (const std::string& message : messages) fmt::print(stderr, "validation: {}\n", message);
+    for (const std::string& message : messages) {
+      fmt::print(stderr, "validation: {}\n", escaped_lines(message));
+    }
     return messages.empty() ? exit_done : exit_internal;
   }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/base/error.h"
+#include "app/base/message.h"
 #include "app/cli/camera_path.h"
 #include "app/cli/command_options.h"
 #include "app/cli/option_groups.h"
@@ -32,6 +33,7 @@ void add_render_options(CLI::App& command, RenderOptions& options, RenderText& t
                   "(float, one of them); - writes PNG to standard output")
       ->group(option_group::kOutput)
       ->required()
+      ->check(not_empty())
       ->check(suggest_files({".png", ".exr", ".pfm"}))
       ->type_name("FILE");
   command
@@ -114,18 +116,18 @@ RenderOptions saved_options(const std::string& file) {
   add_render_options(command, options, text);
   command.get_option("--output")->required(false);
   std::vector<std::string> words(picture.words.rbegin(), picture.words.rend());
-  const auto refuse = [&](const std::exception& error) {
+  const auto refuse = [&](const std::string& fault) {
     throw InputError(
-        fmt::format("{}: what it says of how it was made cannot be: {}", file, error.what()));
+        fmt::format("{}: what it says of how it was made cannot be: {}.", file, reason_of(fault)));
   };
   try {
     command.parse(words);
     parse_render(text, options);
     if (!picture.aovs.empty()) parse_aovs("--aov", picture.aovs);
   } catch (const CLI::ParseError& error) {
-    refuse(error);
+    refuse(fault_of(command, error));
   } catch (const UsageError& error) {
-    refuse(error);
+    refuse(error.what());
   }
   return options;
 }

@@ -43,6 +43,7 @@ void add_scene(CLI::App& command, RenderOptions& options, SceneText& text) {
       ->group(option_group::kModel)
       ->required()
       ->take_last()
+      ->check(not_empty())
       ->check(suggest_models());
   add_view(command, options, text);
   add_gl_path(command, text.gl_path);

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "app/base/error.h"
+#include "app/base/read_file.h"
 #include "app/picture/image_reader.h"
 #include "app/picture/stitch.h"
 
@@ -31,11 +30,7 @@ std::optional<CameraPath> path_of(const RenderOptions& options) {
   }
   if (options.turntable) return CameraPath::turntable(*options.turntable);
   if (options.camera_path.empty()) return std::nullopt;
-  std::ifstream file(options.camera_path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file || !text) throw InputError(options.camera_path + ": cannot be read.");
-  return CameraPath::from_json(text.str(), options.camera_path);
+  return CameraPath::from_json(read_file(options.camera_path), options.camera_path);
 }
 
 void expect_frame(const std::string& option, const std::string& name) {

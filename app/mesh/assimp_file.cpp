@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "app/base/error.h"
-#include "app/mesh/obj_text.h"
+#include "app/base/message.h"
 
 namespace trisect {
 namespace {
@@ -153,32 +153,36 @@ class AssimpScene {
   std::size_t lines_ = 0;
 };
 
-// Refuses a PLY file whose header claims more of something than there are bytes: Assimp would look
-// for all of them.
-void expect_ply_counts(std::string_view bytes, const std::string& name) {
-  std::string_view rest = bytes;
-  while (!rest.empty()) {
-    std::string_view line = rest.substr(0, rest.find('\n'));
+// Throws InputError for a PLY file that cannot have what its head promises: Assimp takes any time
+// for one whose head does not end, or that promises much.
+void expect_whole_ply(std::string_view bytes, const std::string& name) {
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(fmt::format("{}: cannot be read as ply: {}.", name, why));
+  };
+  std::size_t items = 0;
+  for (std::string_view rest = bytes; !rest.empty();) {
+    const std::string_view line = rest.substr(0, rest.find_first_of("\r\n"));
     rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-    const std::string_view key = take_word(line);
-    if (key == "end_header") return;
-    if (key != "element") continue;
-    const std::string_view what = take_word(line);
-    const std::string_view word = take_word(line);
-    std::size_t count = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
-    if (error != std::errc() || end != word.data() + word.size() || count > bytes.size()) {
-      throw InputError(fmt::format("{}: its header claims '{}' of '{}', which it has no room for.",
-                                   name, word, what));
+    if (line.starts_with("end_header")) {
+      // Each has a byte at least.
+      if (items <= rest.size()) return;
+      refuse("it ends before the elements that its head promises");
     }
+    if (!line.starts_with("element ")) continue;
+    const std::string_view number = line.substr(line.find_last_of(' ') + 1);
+    std::size_t count = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), count);
+    if (error == std::errc::result_out_of_range) refuse("it promises too many elements");
+    items = count > bytes.size() - std::min(items, bytes.size()) ? bytes.size() + 1 : items + count;
   }
+  refuse("its head does not end");
 }
 
 }  // namespace
 
 PolygonModel parse_by_assimp(std::string bytes, const std::string& format,
                              const std::string& name) {
-  if (format == "ply") expect_ply_counts(bytes, name);
+  if (format == "ply") expect_whole_ply(bytes, name);
   PolygonModel model;
   {
     Assimp::Importer importer;
@@ -186,10 +190,11 @@ PolygonModel parse_by_assimp(std::string bytes, const std::string& format,
     const aiScene* scene =
         importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, format.c_str());
     if (scene == nullptr) {
-      std::string reason = importer.GetErrorString();
-      while (reason.ends_with('.') || reason.ends_with('\n')) reason.pop_back();
-      throw InputError(fmt::format("{}: cannot be read as {}: {}.", name, format,
-                                   reason.empty() ? "it is damaged" : reason));
+      const std::string reason = reason_of(importer.GetErrorString());
+      if (reason.find("no facets") != std::string::npos) {
+        throw InputError(name + ": the file has no faces.");
+      }
+      throw InputError(fmt::format("{}: cannot be read as {}: {}.", name, format, reason));
     }
     // Two copies of a model are enough.
     bytes = std::string();

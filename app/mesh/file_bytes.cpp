@@ -1,17 +1,13 @@
 #include "app/mesh/file_bytes.h"
 
-#include <fmt/format.h>
 #include <zlib.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
-#include <ios>
-#include <iterator>
 #include <new>
 #include <system_error>
 
 #include "app/base/error.h"
+#include "app/base/read_file.h"
 
 namespace trisect {
 namespace {
@@ -61,17 +57,7 @@ std::string decompressed(std::string& bytes, const std::string& name) {
 }  // namespace
 
 std::string read_bytes(const std::filesystem::path& path) {
-  std::error_code unused;
-  if (std::filesystem::is_directory(path, unused)) {
-    throw InputError(path.string() + ": is a directory, not a model.");
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    throw InputError(fmt::format("{}: cannot be opened: {}.", path.string(),
-                                 std::generic_category().message(errno)));
-  }
-  std::string bytes(std::istreambuf_iterator<char>(file), {});
-  if (file.bad()) throw InputError(path.string() + ": cannot be read.");
+  std::string bytes = read_file(path);
   if (bytes.starts_with("\x1f\x8b")) return decompressed(bytes, path.string());
   return bytes;
 }

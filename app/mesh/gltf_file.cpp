@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "app/base/error.h"
+#include "app/base/message.h"
 #include "app/mesh/gltf_data.h"
 
 namespace trisect {
@@ -194,7 +195,7 @@ class GltfScene {
     note_left_out(points_, "point primitive", model_);
     note_left_out(lines_, "line primitive", model_);
     note_left_out(without_positions_, "primitive without positions", model_);
-    if (model_.sizes.empty()) data_.fail("has no triangles" + notes_after_semicolon(model_));
+    if (model_.sizes.empty()) data_.fail("the file has no faces" + notes_after_semicolon(model_));
     model_.files = data_.files();
     return std::move(model_);
   }
@@ -485,7 +486,7 @@ PolygonModel parse_gltf(std::string_view bytes, const std::filesystem::path& pat
     if (const std::size_t end = what.find("] "); end != std::string_view::npos) {
       what.remove_prefix(end + 2);
     }
-    throw InputError(fmt::format("{}: is not the JSON of a glTF: {}.", name, what));
+    throw InputError(fmt::format("{}: is not the JSON of a glTF: {}.", name, reason_of(what)));
   }
 }
 

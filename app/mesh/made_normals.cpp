@@ -1,6 +1,7 @@
 #include "app/mesh/made_normals.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -58,6 +59,98 @@ class Connected {
   std::vector<uint32_t> root_;
 };
 
+// One of the faces around a vertex: its normal, and the same weighted by its angle there.
+struct FaceNormal {
+  dvec3 normal;
+  dvec3 weighted;
+};
+
+// Faces around a vertex, by a tree of boxes around their normals: of those within an angle of a
+// direction whole boxes are added up at once.
+class FaceTree {
+ public:
+  explicit FaceTree(std::vector<FaceNormal> faces) : faces_(std::move(faces)) {
+    add_box(0, static_cast<uint32_t>(faces_.size()));
+  }
+
+  // The sum of the weighted normals of faces whose normals' product with `face` is not less than
+  // `cosine`.
+  [[nodiscard]] dvec3 sum_within(const dvec3& face, double cosine) const {
+    dvec3 sum(0.0);
+    std::array<uint32_t, 64> waiting{};
+    std::size_t count = 1;
+    while (count > 0) {
+      const Box& box = boxes_[waiting[--count]];
+      const Counts counts = counted(box, face, cosine);
+      if (counts == Counts::all) sum += box.sum;
+      if (counts != Counts::some) continue;
+      if (box.first_half != 0) {
+        waiting[count++] = box.first_half;
+        waiting[count++] = box.second_half;
+        continue;
+      }
+      for (uint32_t k = box.begin; k < box.end; ++k) {
+        if (!(glm::dot(faces_[k].normal, face) < cosine)) sum += faces_[k].weighted;
+      }
+    }
+    return sum;
+  }
+
+ private:
+  enum class Counts { none, some, all };
+
+  struct Box {
+    dvec3 low;
+    dvec3 high;
+    dvec3 sum;
+    uint32_t begin;
+    uint32_t end;
+    uint32_t first_half = 0;  // 0 without halves
+    uint32_t second_half = 0;
+  };
+
+  static Counts counted(const Box& box, const dvec3& face, double cosine) {
+    // Equal normals have the same product to the bit.
+    if (box.low == box.high) {
+      return glm::dot(box.low, face) < cosine ? Counts::none : Counts::all;
+    }
+    const dvec3 a = box.low * face;
+    const dvec3 b = box.high * face;
+    constexpr double rounding = 1e-15;
+    const auto sum = [](const dvec3& v) { return v.x + v.y + v.z; };
+    if (sum(glm::max(a, b)) < cosine - rounding) return Counts::none;
+    return sum(glm::min(a, b)) > cosine + rounding ? Counts::all : Counts::some;
+  }
+
+  uint32_t add_box(uint32_t begin, uint32_t end) {
+    const auto index = static_cast<uint32_t>(boxes_.size());
+    Box box{faces_[begin].normal, faces_[begin].normal, dvec3(0.0), begin, end};
+    for (uint32_t k = begin; k < end; ++k) {
+      box.low = glm::min(box.low, faces_[k].normal);
+      box.high = glm::max(box.high, faces_[k].normal);
+      box.sum += faces_[k].weighted;
+    }
+    boxes_.push_back(box);
+    constexpr uint32_t in_leaf = 8;
+    if (end - begin <= in_leaf) return index;
+    const dvec3 size = box.high - box.low;
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const uint32_t middle = begin + (end - begin) / 2;
+    const auto at = [&](uint32_t k) { return faces_.begin() + static_cast<std::ptrdiff_t>(k); };
+    std::nth_element(at(begin), at(middle), at(end), [&](const FaceNormal& m, const FaceNormal& n) {
+      return m.normal[axis] < n.normal[axis];
+    });
+    const uint32_t first_half = add_box(begin, middle);
+    const uint32_t second_half = add_box(middle, end);
+    boxes_[index].first_half = first_half;
+    boxes_[index].second_half = second_half;
+    return index;
+  }
+
+  std::vector<FaceNormal> faces_;
+  std::vector<Box> boxes_;
+};
+
 class NormalMaker {
  public:
   NormalMaker(const std::vector<ModelTriangle>& triangles, const std::vector<dvec3>& positions,
@@ -90,22 +183,68 @@ class NormalMaker {
           angle_at(points_of(triangles_[triangle].vertex, positions_), around[i] % 3));
       sums[connected.set_of(i)] += weighted[i];
     }
+    std::vector<dvec3> within;
+    if (crease_cosine_ > -1.0) within = sums_within_crease(around, weighted, connected);
     for (uint32_t i = 0; i < around.size(); ++i) {
       const dvec3& face = faces_[around[i] / 3];
-      dvec3 sum = sums[connected.set_of(i)];
-      if (crease_cosine_ > -1.0) {
-        sum = dvec3(0.0);
-        for (uint32_t k = 0; k < around.size(); ++k) {
-          const bool counts = k == i || (connected.set_of(k) == connected.set_of(i) &&
-                                         !(glm::dot(faces_[around[k] / 3], face) < crease_cosine_));
-          if (counts) sum += weighted[k];
-        }
-      }
+      const dvec3 sum = within.empty() ? sums[connected.set_of(i)] : within[i];
       // Where the faces cancel out, as on the two sides of a sheet, the corner's own face decides.
       const double length = glm::length(sum);
       normals[i] = length > 1e-9 ? sum / length : face;
     }
     number(around, normals);
+  }
+
+  // For each of the faces around a vertex the sum of those that are connected with it and do not
+  // meet it at more than the crease's angle.
+  std::vector<dvec3> sums_within_crease(std::span<const uint32_t> around,
+                                        const std::vector<dvec3>& weighted,
+                                        Connected& connected) const {
+    std::vector<uint32_t> order(around.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+      return std::pair(connected.set_of(a), a) < std::pair(connected.set_of(b), b);
+    });
+    std::vector<dvec3> sums(around.size(), dvec3(0.0));
+    for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+      const uint32_t set = connected.set_of(order[begin]);
+      while (end < order.size() && connected.set_of(order[end]) == set) ++end;
+      const std::span<const uint32_t> members(order.data() + begin, end - begin);
+      if (members.size() > kMostByPairs) {
+        add_by_tree(members, around, weighted, sums);
+      } else {
+        add_by_pairs(members, around, weighted, sums);
+      }
+    }
+    return sums;
+  }
+
+  // More faces than that are not tried each with each.
+  static constexpr std::size_t kMostByPairs = 512;
+
+  void add_by_pairs(std::span<const uint32_t> members, std::span<const uint32_t> around,
+                    const std::vector<dvec3>& weighted, std::vector<dvec3>& sums) const {
+    for (const uint32_t i : members) {
+      const dvec3& face = faces_[around[i] / 3];
+      for (const uint32_t k : members) {
+        const bool counts = k == i || !(glm::dot(faces_[around[k] / 3], face) < crease_cosine_);
+        if (counts) sums[i] += weighted[k];
+      }
+    }
+  }
+
+  void add_by_tree(std::span<const uint32_t> members, std::span<const uint32_t> around,
+                   const std::vector<dvec3>& weighted, std::vector<dvec3>& sums) const {
+    std::vector<FaceNormal> faces;
+    faces.reserve(members.size());
+    for (const uint32_t i : members) faces.push_back({faces_[around[i] / 3], weighted[i]});
+    const FaceTree tree(std::move(faces));
+    for (const uint32_t i : members) {
+      const dvec3& face = faces_[around[i] / 3];
+      sums[i] = tree.sum_within(face, crease_cosine_);
+      // Its own counts, whatever rounding makes of the product of a unit vector with itself.
+      if (glm::dot(face, face) < crease_cosine_) sums[i] += weighted[i];
+    }
   }
 
   // Gives each of the corners around a vertex its normal: equal ones are one.

@@ -18,6 +18,7 @@
 
 #include "app/base/error.h"
 #include "app/base/folder_of.h"
+#include "app/base/message.h"
 #include "app/mesh/file_bytes.h"
 #include "app/mesh/obj_materials.h"
 #include "app/mesh/obj_text.h"
@@ -321,7 +322,7 @@ PolygonModel parse_obj(std::string_view file_text, const std::string& name,
   std::string warning;
   std::string error;
   if (!tinyobj::LoadObjWithCallback(stream, callbacks, &reader, nullptr, &warning, &error)) {
-    throw InputError(fmt::format("{}: {}", name, error));
+    throw InputError(fmt::format("{}: {}.", name, reason_of(error)));
   }
   PolygonModel model = reader.finish(text.counts.lost_normals);
   model.notes = notes_of(text.counts);

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "app/base/error.h"
+#include "app/base/message.h"
 #include "app/base/srgb.h"
 #include "app/picture/image_file.h"
 
@@ -128,8 +129,8 @@ void write_exr(const Frame& frame, const AtomicFile& file, const ImageContents& 
     out.setFrameBuffer(channels.slices());
     out.writePixels(static_cast<int>(frame.height));
   } catch (const std::exception& error) {
-    throw InputError(
-        fmt::format("{}: could not be written: {}.", file.target().string(), error.what()));
+    throw InputError(fmt::format("{}: could not be written: {}.", file.target().string(),
+                                 reason_of(error.what())));
   }
 }
 

@@ -13,8 +13,11 @@
 #include <cstddef>
 #include <exception>
 #include <string>
+#include <system_error>
 
 #include "app/base/error.h"
+#include "app/base/message.h"
+#include "app/base/read_file.h"
 #include "app/base/srgb.h"
 #include "app/picture/image_file.h"
 #include "app/picture/open_exr.h"
@@ -25,8 +28,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-InputError unreadable(const fs::path& path, const std::string& why) {
-  return InputError(fmt::format("{}: could not be read: {}.", path.string(), why));
+// why: as the library has it, which may name the file again: 'Cannot read image file "a.exr". '
+InputError unreadable(const fs::path& path, std::string why) {
+  const std::string named = fmt::format("image file \"{}\". ", path.string());
+  if (const std::size_t at = why.find(named); at != std::string::npos) {
+    why.erase(0, at + named.size());
+  }
+  return InputError(fmt::format("{}: could not be read: {}.", path.string(), reason_of(why)));
 }
 
 Frame read_png(const fs::path& path) {
@@ -150,10 +158,16 @@ ImageTexts exr_attributes(const fs::path& path) {
   }
 }
 
-// Throws UsageError for a picture that is neither PNG nor EXR.
+// Throws UsageError for a picture that is neither PNG nor EXR, InputError for one that is not
+// there.
 bool is_png(const fs::path& path) {
-  const ImageFormat format = image_format(path);
-  if (format != ImageFormat::pfm) return format == ImageFormat::png;
+  std::error_code unused;
+  const bool is_named = !fs::is_directory(path, unused);
+  const ImageFormat format = is_named ? image_format(path) : ImageFormat::png;
+  if (format != ImageFormat::pfm) {
+    expect_readable_file(path);
+    return format == ImageFormat::png;
+  }
   throw UsageError(path.string() + ": PNG and EXR are read, PFM is only written.");
 }
 

@@ -17,6 +17,7 @@
 
 #include "app/base/error.h"
 #include "app/base/memory.h"
+#include "app/base/message.h"
 #include "app/base/srgb.h"
 #include "app/picture/image_file.h"
 #include "app/picture/png_pixels.h"
@@ -48,7 +49,7 @@ void ignore_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
 [[noreturn]] void fail(const std::filesystem::path& path, const char* what,
                        const std::string& why) {
-  throw InputError(fmt::format("{}: could not be {}: {}.", path.string(), what, why));
+  throw InputError(fmt::format("{}: could not be {}: {}.", path.string(), what, reason_of(why)));
 }
 
 // A picture's rows and texts as libpng takes them.

@@ -16,6 +16,7 @@
 #include <system_error>
 
 #include "app/base/error.h"
+#include "app/base/message.h"
 #include "app/picture/image_reader.h"
 #include "app/picture/open_exr.h"
 #include "app/picture/png_pixels.h"
@@ -300,7 +301,7 @@ void stitch(const std::vector<fs::path>& parts, ImageFormat format, const Atomic
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    refuse(file.target(), fmt::format("could not be made: {}", error.what()));
+    refuse(file.target(), fmt::format("could not be made: {}", reason_of(error.what())));
   }
 }
 

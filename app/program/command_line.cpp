@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "app/cli/output.h"
 #include "app/cli/render_options.h"
 #include "app/cli/scene_options.h"
+#include "app/cli/standard_output.h"
 #include "app/cli/suggestions.h"
 #include "app/program/help_format.h"
 #include "app/view/command_line.h"
@@ -64,6 +66,7 @@ void add_model(CLI::App& command, std::string& model) {
   command.add_option("MODEL", model, "OBJ, glTF, PLY, STL or FBX file")
       ->group(option_group::kModel)
       ->required()
+      ->check(not_empty())
       ->check(suggest_models());
 }
 
@@ -95,11 +98,13 @@ Command add_stitch(CLI::App& app) {
   command.add_option("PART", options->parts, "Images, all PNG or all EXR")
       ->group(option_group::kInput)
       ->required()
+      ->check(not_empty())
       ->check(suggest_images())
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command.add_option("-o,--output", options->output, "Image to write, of the same format")
       ->group(option_group::kOutput)
       ->required()
+      ->check(not_empty())
       ->check(suggest_images())
       ->type_name("FILE");
   return {&command, [options = options] { return stitch_parts(*options); }};
@@ -201,10 +206,12 @@ Command add_compare(CLI::App& app) {
   command.add_option("A", values->options.a, "An image")
       ->group(option_group::kInput)
       ->required()
+      ->check(not_empty())
       ->check(suggest_images());
   command.add_option("B", values->options.b, "Another, of the same size")
       ->group(option_group::kInput)
       ->required()
+      ->check(not_empty())
       ->check(suggest_images());
   command
       .add_option("--threshold", values->thresholds,
@@ -262,6 +269,7 @@ Command add_export(CLI::App& app) {
   add_model(command, options.model);
   command.add_option("-o,--output", options.output, "File to write: .obj, .ply, .stl or .glb")
       ->group(option_group::kOutput)
+      ->check(not_empty())
       ->check(suggest_files({".obj", ".ply", ".stl", ".glb"}))
       ->required()
       ->type_name("FILE");
@@ -359,10 +367,12 @@ bool CommandLine::parse(int argc, const char* const* argv) {
     app_.parse(std::move(words));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
-      app_.exit(error);
+      std::ostringstream text;
+      app_.exit(error, text, text);
+      write_standard_output(text.str());
       return false;
     }
-    throw UsageError(std::string(error.what()) + " (see trisect --help)");
+    throw UsageError(fault_of(app_, error) + " (see trisect --help)");
   }
   return true;
 }

@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 
-#include "app/base/error.h"
+#include "app/base/read_file.h"
 
 namespace trisect::report {
 namespace {
@@ -67,9 +65,7 @@ std::string html_of(const Table& table) {
 }
 
 std::string content_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(path.string() + ": cannot be read.");
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  return read_file(path);
 }
 
 std::string html_of(const Picture& picture, const std::filesystem::path& folder) {

@@ -18,6 +18,7 @@ CommandLine::CommandLine(CLI::App& app) {
       .add_option("MODEL", options_.render.model,
                   "OBJ, glTF, PLY, STL or FBX file, default the teapot")
       ->group(option_group::kModel)
+      ->check(not_empty())
       ->check(suggest_models());
   add_spp(command, options_.render.spp);
   command

@@ -11,6 +11,7 @@
 
 #include "app/base/error.h"
 #include "app/base/number_text.h"
+#include "app/cli/command_options.h"
 #include "app/cli/load_scene.h"
 #include "app/cli/scene_options.h"
 #include "app/dispatch/accel.h"
@@ -90,7 +91,7 @@ RenderOptions with_flags(const RenderOptions& base, const std::string& text) {
   try {
     command.parse(words);
   } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what());
+    throw UsageError(fault_of(command, error));
   }
   parse_scene(scene, options);
   // Refuses options that do not go together, whatever the model.

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <sstream>
 #include <string_view>
 #include <utility>
 
 #include "app/base/error.h"
+#include "app/base/read_file.h"
 #include "app/cli/options.h"
 #include "app/picture/image_file.h"
 #include "app/view/flags.h"
@@ -81,8 +81,7 @@ int key_named(const std::string& name) {
 }
 
 std::vector<ScriptStep> read_script(const std::string& file) {
-  std::ifstream in(file);
-  if (!in) throw InputError(file + ": cannot be read.");
+  std::istringstream in(read_file(file));
   std::vector<ScriptStep> steps;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {

@@ -193,7 +193,7 @@ TEST(GltfFile, LeavesOutPointsAndLines) {
   EXPECT_EQ(parse_bytes(file.text()).notes,
             (std::vector<std::string>{"1 point primitive left out", "2 line primitives left out"}));
   EXPECT_EQ(refusal(square_file(1).text()),
-            "model.gltf: has no triangles; 1 line primitive left out.");
+            "model.gltf: the file has no faces; 1 line primitive left out.");
 }
 
 TEST(GltfFile, AppliesTransformationsOfNodes) {
@@ -422,7 +422,7 @@ TEST(GltfFile, SaysWhatIsWrong) {
   EXPECT_EQ(with([](json& root) { root["nodes"][0]["mesh"] = 3; }),
             "model.gltf: names number 3 of its meshes, of which there are 1.");
   EXPECT_EQ(with([](json& root) { root["nodes"][0]["children"] = {0}; }),
-            "model.gltf: has no triangles.");
+            "model.gltf: the file has no faces.");
   EXPECT_EQ(with([](json& root) {
               root["nodes"][0]["children"] = {0};
               root["scenes"] = {{{"nodes", {0}}}};

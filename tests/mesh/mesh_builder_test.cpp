@@ -155,6 +155,52 @@ TEST(BuildMesh, CreaseAngleSplitsOrJoinsNormals) {
   EXPECT_EQ(rebuilt.mesh.normals[rebuilt.mesh.triangles[0].normal[0]], dvec3(0, 0, 1));
 }
 
+// A cone's side: so many triangles around its tip, position 0.
+PolygonModel cone(uint32_t triangles) {
+  PolygonModel model;
+  model.positions.emplace_back(0.0, 0.0, 1.0);
+  for (uint32_t i = 0; i < triangles; ++i) {
+    const double angle = 6.283185307179586 * i / triangles;
+    model.positions.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+    for (const uint32_t vertex : {0U, 1 + i, 1 + (i + 1) % triangles}) {
+      model.corners.push_back({vertex, PolygonCorner::no_normal});
+    }
+  }
+  model.sizes.assign(triangles, 3);
+  return model;
+}
+
+// Around a vertex with very many faces each face's normal is the mean of those within the crease's
+// angle. (Tried each with each they would take minutes.)
+TEST(BuildMesh, MakesNormalsOfVeryManyFacesAroundAVertex) {
+  constexpr uint32_t faces = 400000;
+  constexpr double crease = 20.0;
+  const BuiltMesh built = build_mesh(cone(faces), "cone", {.crease_degrees = crease});
+  ASSERT_EQ(built.report.triangles, faces);
+  // The faces' normals are as high as they are wide. Those counted are within `width` on both
+  // sides.
+  const double width = std::acos(2.0 * std::cos(glm::radians(crease)) - 1.0);
+  const double slope = width / std::sin(width);
+  for (uint32_t i = 0; i < faces; i += 1000) {
+    const dvec3 normal = built.mesh.normals[built.mesh.triangles[i].normal[0]];
+    const double angle = 6.283185307179586 * (i + 0.5) / faces;
+    const double across = normal.x * std::cos(angle) + normal.y * std::sin(angle);
+    EXPECT_NEAR(normal.z / across, slope, 1e-4) << i;
+    EXPECT_NEAR(normal.y * std::cos(angle) - normal.x * std::sin(angle), 0.0, 1e-4) << i;
+  }
+}
+
+TEST(BuildMesh, LeavesVeryManyFacesAroundAVertexFlatWithoutSmoothing) {
+  PolygonModel model = cone(400000);
+  model.smoothing_groups.assign(model.sizes.size(), 0);
+  const BuiltMesh built = build_mesh(std::move(model), "cone", {.crease_degrees = 20.0});
+  for (const MeshTriangle& t : built.mesh.triangles) {
+    const auto normal = [&](std::size_t i) { return built.mesh.normals[t.normal[i]]; };
+    ASSERT_LT(glm::distance(normal(0), normal(1)), kSomeRoundings);
+    ASSERT_LT(glm::distance(normal(0), normal(2)), kSomeRoundings);
+  }
+}
+
 TEST(BuildMesh, KeepsEveryTriangleOfConvexAndConcavePolygons) {
   const BuiltMesh built = build(
       "v 0 2 0\nv -1 -1 0\nv 0 0 0\nv 1 -1 0\nv 3 0 0\nv 4 0 0\nv 4 1 0\nv 3.5 2 0\nv 3 1 0\n"
