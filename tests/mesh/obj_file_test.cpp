@@ -272,7 +272,8 @@ TEST(ObjFile, SaysWhyAFileCannotBeRead) {
   };
   const std::filesystem::path absent = folder / "absent.obj";
   EXPECT_EQ(complain(absent), absent.string() + ": cannot be opened: No such file or directory.");
-  EXPECT_EQ(complain(folder.path()), folder.path().string() + ": cannot be read: it is a directory.");
+  EXPECT_EQ(complain(folder.path()),
+            folder.path().string() + ": cannot be read: it is a directory.");
   const std::filesystem::path noise = folder / "noise.obj";
   std::ofstream(noise, std::ios::binary) << std::string("\x00\xff\x01garbage\nf\nv", 14);
   EXPECT_EQ(complain(noise).find(noise.string()), 0U) << complain(noise);
