@@ -153,12 +153,12 @@ class AssimpScene {
   std::size_t lines_ = 0;
 };
 
-// Refuses a PLY file whose header claims more of something than there are bytes: Assimp would look
-// for all of them.
-void expect_ply_counts(std::string_view bytes, const std::string& name) {
+// Refuses a PLY file whose header claims more of something than there are bytes, or has no end:
+// Assimp would look for all of them, or take the body for counts.
+void expect_ply_header(std::string_view bytes, const std::string& name) {
   std::string_view rest = bytes;
   while (!rest.empty()) {
-    std::string_view line = rest.substr(0, rest.find('\n'));
+    std::string_view line = rest.substr(0, rest.find_first_of("\r\n"));
     rest.remove_prefix(std::min(line.size() + 1, rest.size()));
     const std::string_view key = take_word(line);
     if (key == "end_header") return;
@@ -172,13 +172,14 @@ void expect_ply_counts(std::string_view bytes, const std::string& name) {
                                    name, word, what));
     }
   }
+  throw InputError(name + ": cannot be read as ply: its header has no end.");
 }
 
 }  // namespace
 
 PolygonModel parse_by_assimp(std::string bytes, const std::string& format,
                              const std::string& name) {
-  if (format == "ply") expect_ply_counts(bytes, name);
+  if (format == "ply") expect_ply_header(bytes, name);
   PolygonModel model;
   {
     Assimp::Importer importer;

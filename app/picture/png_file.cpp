@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -96,6 +98,25 @@ png_text text_of(const std::string& name, const std::string& value) {
   return text;
 }
 
+// Refuses a file one of whose chunks is longer than the file, for which libpng would take memory:
+// each is a length, the most significant byte first, a name, so many bytes, and a checksum. Other
+// mistakes are left to libpng.
+void expect_chunks(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const std::streamoff end = file.tellg();
+  file.seekg(0);
+  uint8_t head[8]{};
+  auto* const at = reinterpret_cast<char*>(head);
+  file.read(at, sizeof(head));
+  if (png_sig_cmp(head, 0, sizeof(head)) != 0) return;
+  while (file.read(at, sizeof(head)) && std::string_view(at + 4, 4) != "IEND") {
+    std::streamoff length = 0;
+    for (int i = 0; i < 4; ++i) length = length * 256 + head[i];
+    if (length > end - file.tellg()) fail(path, "read", "it is cut off");
+    file.seekg(length + 4, std::ios::cur);
+  }
+}
+
 // Whether a file can hold so many pixels: a byte of it unpacks to 1032 at most, of eight pixels
 // each.
 bool can_hold(const std::filesystem::path& path, const png_image& image) {
@@ -138,6 +159,7 @@ void write_png_pixels(PngPixels& pixels, const ImageTexts& texts,
 }
 
 PngPixels read_png_pixels(const std::filesystem::path& path) {
+  expect_chunks(path);
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   if (png_image_begin_read_from_file(&image, path.c_str()) == 0) {
@@ -157,6 +179,7 @@ PngPixels read_png_pixels(const std::filesystem::path& path) {
 }
 
 ImageTexts read_png_texts(const std::filesystem::path& path) {
+  expect_chunks(path);
   std::string complaint;
   std::FILE* stream = std::fopen(path.c_str(), "rb");
   if (stream == nullptr) complaint = std::generic_category().message(errno);
