@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -97,6 +99,25 @@ void read_rows(png_structp png, png_infop info, std::FILE* file) {
                nullptr);
 }
 
+// Refuses a file one of whose chunks is longer than the file, for which libpng would take memory:
+// each is a length, the most significant byte first, a name, so many bytes, and a checksum. Other
+// mistakes are left to libpng.
+void expect_chunks(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const std::streamoff end = file.tellg();
+  file.seekg(0);
+  uint8_t head[8]{};
+  auto* const at = reinterpret_cast<char*>(head);
+  file.read(at, sizeof(head));
+  if (png_sig_cmp(head, 0, sizeof(head)) != 0) return;
+  while (file.read(at, sizeof(head)) && std::string_view(at + 4, 4) != "IEND") {
+    std::streamoff length = 0;
+    for (int i = 0; i < 4; ++i) length = length * 256 + head[i];
+    if (length > end - file.tellg()) fail(path, "read", "it is cut off");
+    file.seekg(length + 4, std::ios::cur);
+  }
+}
+
 // A file as libpng has read it.
 class PngReader {
  public:
@@ -104,6 +125,7 @@ class PngReader {
 
   // Throws InputError.
   PngReader(const std::filesystem::path& path, Read read) {
+    expect_chunks(path);
     std::FILE* stream = std::fopen(path.c_str(), "rb");
     if (stream == nullptr) complaint_ = std::generic_category().message(errno);
     png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &complaint_, note_error, ignore_warning);

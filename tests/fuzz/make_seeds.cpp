@@ -164,7 +164,7 @@ void add_pictures(Corpus& corpus) {
     const auto size = static_cast<uint16_t>(top.size());
     std::string both(3, static_cast<char>(kind + 2));
     std::memcpy(&both[1], &size, sizeof(size));
-    corpus.add("picture", both + top + bottom);
+    corpus.add("picture", both.append(top).append(bottom));
   }
 }
 
