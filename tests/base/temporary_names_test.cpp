@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <filesystem>
-#include <memory>
-#include <set>
+#include <iterator>
+#include <optional>
 #include <system_error>
 #include <thread>
-#include <vector>
 
 #include "tests/support/temporary_folder.h"
 
@@ -47,15 +47,10 @@ TEST(TemporaryNames, GoWithTheProcess) {
     stays.release();
   }
   const auto end = [&] {
-    std::vector<std::unique_ptr<TemporaryName>> names;
-    for (int i = 0; i < 64; ++i) {
-      names.push_back(std::make_unique<TemporaryName>(folder.path(), 0600));
-    }
+    std::array<std::optional<TemporaryName>, 64> names;
+    for (auto& name : names) name.emplace(folder.path(), 0600);
     // What went before has left its place to others.
-    for (int i = 0; i < 32; ++i) names.erase(names.begin());
-    for (int i = 0; i < 32; ++i) {
-      names.push_back(std::make_unique<TemporaryName>(folder.path(), 0600));
-    }
+    for (std::size_t i = 0; i < 64; i += 2) names[i].emplace(folder.path(), 0600);
     if (files_in(folder) != 65) _exit(1);
     remove_temporary_files();
     _exit(files_in(folder) == 1 ? 0 : 2);
@@ -68,9 +63,9 @@ TEST(TemporaryNames, GoWithTheProcess) {
 TEST(TemporaryNames, GoWithTheProcessWhateverItsThreadsDo) {
   const test::TemporaryFolder folder;
   const auto end = [&] {
-    std::vector<std::thread> threads;
-    for (int i = 0; i < 3; ++i) {
-      threads.emplace_back([&] {
+    std::array<std::thread, 3> threads;
+    for (std::thread& thread : threads) {
+      thread = std::thread([&] {
         for (;;) TemporaryName(folder.path(), 0600);
       });
     }

@@ -15,7 +15,7 @@ namespace {
 void parse_command_line(const std::string& text) {
   std::vector<std::string> words{"trisect"};
   std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) words.push_back(line.c_str());
+  for (std::string line; std::getline(lines, line);) words.emplace_back(line.c_str());
   std::vector<const char*> arguments;
   arguments.reserve(words.size());
   for (const std::string& word : words) arguments.push_back(word.c_str());

@@ -73,8 +73,8 @@ class Faults {
     for (const auto& [name, value] : kResults) {
       if (name == result) result_ = value;
     }
-    if (left_ < 1 || (result_ == VK_SUCCESS && !hangs_))
-      give_up("TRISECT_TEST_FAIL cannot be " + text);
+    const bool is_known = hangs_ || result_ != VK_SUCCESS;
+    if (left_ < 1 || !is_known) give_up("TRISECT_TEST_FAIL cannot be " + text);
   }
 
   // What the present call of this function fails with; nothing if it does not.

@@ -92,7 +92,7 @@ TEST_F(FrameProgress, RisesOnEveryBackEnd) {
 
 TEST_F(FrameProgress, RisesFromBandToBand) {
   // Buffers for 50 of the rows.
-  constexpr std::size_t limit = kWidth * 50 * sizeof(PixelAovs);
+  constexpr std::size_t limit = std::size_t{kWidth} * 50 * sizeof(PixelAovs);
   VulkanTracer tracer(test::validated_device(), scene_, kWidth, kHeight,
                       {SOLVER_ROBUST, true, false, Accel::bvh}, limit);
   ASSERT_FALSE(tracer.holds_at_once(kWidth, kHeight));
