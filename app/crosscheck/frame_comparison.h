@@ -33,7 +33,8 @@ struct FrameComparison {
   // colour is in one of them.
   double color_rmse = 0.0;
   double color_max = 0.0;  // largest difference of a component
-  double alpha_max = 0.0;  // the same of alpha; an image without it is opaque
+  // The same of alpha where both hit or neither does; an image without it is opaque.
+  double alpha_max = 0.0;
   // Pixels with a colour's component that is NaN in both, which counts as equal.
   std::size_t nan_pixels = 0;
   double psnr = 0.0;  // peak signal-to-noise ratio, decibels; infinite if the colours are equal

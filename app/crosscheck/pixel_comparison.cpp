@@ -49,7 +49,11 @@ ColorDifference color_difference(const Frame& a, const Frame& b) {
       both_nan = both_nan || (std::isnan(p[k]) && std::isnan(q[k]));
     }
     difference.nan_pixels += both_nan ? 1 : 0;
-    max_propagating_nan(difference.alpha, 255.0 * apart(p.w, q.w));
+    // What one of them hits is counted as such.
+    const double alpha = 255.0 * apart(p.w, q.w);
+    if (std::isnan(alpha) || is_hit(a, i) == is_hit(b, i)) {
+      max_propagating_nan(difference.alpha, alpha);
+    }
   }
   difference.rmse = std::sqrt(squares / (3.0 * static_cast<double>(a.colors.size())));
   return difference;

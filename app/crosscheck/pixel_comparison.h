@@ -24,7 +24,7 @@ struct ColorDifference {
   double rmse = 0.0;
   double largest = 0.0;         // NaN if any is
   double largest_number = 0.0;  // of those that are finite
-  double alpha = 0.0;           // the largest
+  double alpha = 0.0;           // the largest where both hit or neither does
   std::size_t nan_pixels = 0;
 };
 

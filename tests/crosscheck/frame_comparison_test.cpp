@@ -82,6 +82,10 @@ TEST(FrameComparison, ComparesAlpha) {
   EXPECT_EQ(found.color_max, 0.0);
   EXPECT_TRUE(excesses(found, {}).empty());
   EXPECT_EQ(excesses(found, {.alpha_max = 1.0}).size(), 1U);
+  // A hit of one only is counted as that.
+  b.colors[7].w = 0.0F;
+  EXPECT_EQ(compare(a, b).alpha_max, 0.0);
+  EXPECT_EQ(compare(a, b).hit_mismatches, 1U);
   b.colors[7].w = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(excesses(compare(a, b), {}).size(), 1U);
 }
