@@ -39,6 +39,10 @@ fs::path control_group() {
   return {};
 }
 
+std::string gigabytes_text(double bytes) {
+  return fmt::format("{:.1f} GB", bytes / 1e9);
+}
+
 }  // namespace
 
 std::optional<uint64_t> free_memory() {
@@ -52,10 +56,6 @@ std::optional<uint64_t> free_memory() {
     least = std::min(least.value_or(left), left);
   }
   return least;
-}
-
-std::string gigabytes_text(double bytes) {
-  return fmt::format("{:.1f} GB", bytes / 1e9);
 }
 
 void expect_memory(double bytes, const std::string& what) {

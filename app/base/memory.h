@@ -12,9 +12,6 @@ namespace trisect {
 // of /proc/meminfo, and the limits of its control groups, version 2); nothing if it does not.
 std::optional<uint64_t> free_memory();
 
-// "17.2 GB": billions of bytes, for a person; of less than one "0.2 GB".
-std::string gigabytes_text(double bytes);
-
 // Throws OutOfMemory, "WHAT needs 17.2 GB of memory, and 5.1 GB are free.", if `bytes` are more
 // than nine tenths of what is free: some is needed beside. Less than a quarter of a gigabyte is not
 // looked at. what: "an image of 16384x16384 pixels".

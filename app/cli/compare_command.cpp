@@ -18,11 +18,6 @@
 namespace trisect {
 namespace {
 
-void add_excess(const std::string& excess, nlohmann::ordered_json& figures) {
-  say("  too far apart: {}\n", excess);
-  figures["excesses"].push_back(excess);
-}
-
 // Two files with the same pixels in other places are not the same picture.
 void compare_windows(const CompareOptions& options, nlohmann::ordered_json& figures) {
   const std::optional<ImageWindow> a = read_window(options.a);
@@ -34,8 +29,10 @@ void compare_windows(const CompareOptions& options, nlohmann::ordered_json& figu
 
 // Pixels with other bits, for each channel; of a channel that only one file has, null.
 void compare_channels(const CompareOptions& options, nlohmann::ordered_json& figures) {
-  const std::vector<std::string> a = channel_names(options.a);
-  const std::vector<std::string> b = channel_names(options.b);
+  const ImageChannels first(options.a);
+  const ImageChannels second(options.b);
+  const std::vector<std::string>& a = first.names();
+  const std::vector<std::string>& b = second.names();
   std::vector<std::string> all;
   std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
   for (const std::string& name : all) {
@@ -46,8 +43,8 @@ void compare_channels(const CompareOptions& options, nlohmann::ordered_json& fig
                  figures);
       continue;
     }
-    const std::vector<uint32_t> one = channel_bits(options.a, name);
-    const std::vector<uint32_t> other = channel_bits(options.b, name);
+    const std::vector<uint32_t> one = first.bits(name);
+    const std::vector<uint32_t> other = second.bits(name);
     std::size_t differ = 0;
     for (std::size_t i = 0; i < one.size(); ++i) differ += one[i] != other[i] ? 1 : 0;
     figures["channels"][name] = differ;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "app/cli/json_text.h"
 #include "app/crosscheck/comparison_picture.h"
@@ -38,13 +37,17 @@ nlohmann::ordered_json report_pair(const std::string& name_a, const Frame& a,
                                    const std::string& name_b, const Frame& b,
                                    const Tolerance& tolerance) {
   const FrameComparison comparison = compare(a, b);
-  const std::vector<std::string> found = excesses(comparison, tolerance);
   say("{} | {}\n{}", name_a, name_b, to_text(comparison));
-  for (const std::string& excess : found) say("  too far apart: {}\n", excess);
   nlohmann::ordered_json json{{"a", name_a}, {"b", name_b}};
   json.update(to_json(comparison));
-  json["excesses"] = found;
+  json["excesses"] = nlohmann::ordered_json::array();
+  for (const std::string& excess : excesses(comparison, tolerance)) add_excess(excess, json);
   return json;
+}
+
+void add_excess(const std::string& excess, nlohmann::ordered_json& figures) {
+  say("  too far apart: {}\n", excess);
+  figures["excesses"].push_back(excess);
 }
 
 ComparisonFiles::ComparisonFiles(const std::string& json, const std::string& diff) : json_(json) {

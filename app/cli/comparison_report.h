@@ -19,6 +19,9 @@ nlohmann::ordered_json report_pair(const std::string& name_a, const Frame& a,
                                    const std::string& name_b, const Frame& b,
                                    const Tolerance& tolerance);
 
+// Prints that a figure is too large, and adds it to the "excesses" of report_pair().
+void add_excess(const std::string& excess, nlohmann::ordered_json& figures);
+
 // The files of --json and --diff; an empty path means that the file is not asked for. They are
 // opened before the frames are made, so that a path that cannot be written is reported at once.
 class ComparisonFiles {

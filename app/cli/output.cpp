@@ -80,6 +80,13 @@ void tell(std::string_view text) {
   if (told == Told::standard_error) std::fwrite(shown.data(), 1, shown.size(), stderr);
 }
 
+int report_validation(const std::vector<std::string>& messages) {
+  for (const std::string& message : messages) {
+    fmt::print(stderr, "validation: {}\n", escaped_lines(message));
+  }
+  return messages.empty() ? exit_done : exit_internal;
+}
+
 ImageFormat output_format(const std::string& name) {
   return name == kStandardOutput ? ImageFormat::png : image_format(name);
 }

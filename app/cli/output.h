@@ -47,6 +47,10 @@ void detail(fmt::format_string<Values...> format, Values&&... values) {
   tell_detail(fmt::format(format, std::forward<Values>(values)...));
 }
 
+// Prints the messages of the validation layer to standard error. Returns the exit code: there must
+// be none.
+int report_validation(const std::vector<std::string>& messages);
+
 // Of an image: PNG on standard output, else as image_format() says.
 ImageFormat output_format(const std::string& name);
 

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "app/base/error.h"
-#include "app/base/message.h"
 #include "app/base/stopwatch.h"
 #include "app/cli/cache_folder.h"
 #include "app/cli/commands.h"
@@ -101,14 +100,7 @@ class Renderer {
   }
 
   // Lets go of the device and prints the messages of the validation layer; returns an exit code.
-  int close() {
-    const std::vector<std::string> messages =
-        tracer_ ? tracer_->close() : std::vector<std::string>();
-    for (const std::string& message : messages) {
-      fmt::print(stderr, "validation: {}\n", escaped_lines(message));
-    }
-    return messages.empty() ? exit_done : exit_internal;
-  }
+  int close() { return report_validation(tracer_ ? tracer_->close() : std::vector<std::string>()); }
 
  private:
   const RenderOptions& options_;

@@ -3,12 +3,10 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfInputFile.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <exception>
 
 #include "app/base/error.h"
 #include "app/picture/image_reader.h"
@@ -25,19 +23,6 @@ bool is_exr(const fs::path& path) {
   return image_format(path) == ImageFormat::exr;
 }
 
-// use(file) of an EXR, with what OpenEXR throws as InputError.
-template <typename Use>
-auto with_exr(const fs::path& path, const Use& use) {
-  try {
-    Imf::InputFile file = open_exr(path);
-    return use(file);
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw InputError(fmt::format("{}: could not be read: {}.", path.string(), error.what()));
-  }
-}
-
 // R, G, B, A of a PNG: 0 to 3.
 constexpr const char* kPngNames = "RGBA";
 
@@ -49,15 +34,15 @@ std::vector<uint32_t> exr_bits(const fs::path& path, Imf::InputFile& file,
         fmt::format("{}: channel {} has not a number for every pixel.", path.string(), name));
   }
   const Imath::Box2i& window = file.header().dataWindow();
-  const auto width = static_cast<std::ptrdiff_t>(window.max.x) - window.min.x + 1;
-  const auto height = static_cast<std::ptrdiff_t>(window.max.y) - window.min.y + 1;
-  std::vector<uint32_t> bits(static_cast<std::size_t>(width * height));
-  constexpr std::size_t bytes = sizeof(uint32_t);
-  char* base = reinterpret_cast<char*>(bits.data()) -
-               (window.min.x + window.min.y * width) * static_cast<std::ptrdiff_t>(bytes);
+  const auto size = [](int64_t first, int64_t last) {
+    return static_cast<std::size_t>(last - first + 1);
+  };
+  const std::size_t width = size(window.min.x, window.max.x);
+  std::vector<uint32_t> bits(width * size(window.min.y, window.max.y));
   const Imf::PixelType type = channel.type == Imf::UINT ? Imf::UINT : Imf::FLOAT;
   Imf::FrameBuffer buffer;
-  buffer.insert(name, Imf::Slice(type, base, bytes, bytes * static_cast<std::size_t>(width)));
+  buffer.insert(name, Imf::Slice::Make(type, bits.data(), window, sizeof(uint32_t),
+                                       sizeof(uint32_t) * width));
   file.setFrameBuffer(buffer);
   file.readPixels(window.min.y, window.max.y);
   return bits;
@@ -87,33 +72,32 @@ std::optional<ImageWindow> read_window(const fs::path& path) {
   });
 }
 
-std::vector<std::string> channel_names(const fs::path& path) {
-  std::vector<std::string> names;
+ImageChannels::ImageChannels(const fs::path& path) : path_(path) {
   if (is_exr(path)) {
-    names = with_exr(path, [](const Imf::InputFile& file) {
-      std::vector<std::string> found;
+    with_exr(path, [&](const Imf::InputFile& file) {
       const Imf::ChannelList& channels = file.header().channels();
-      for (auto at = channels.begin(); at != channels.end(); ++at) found.emplace_back(at.name());
-      return found;
+      for (auto at = channels.begin(); at != channels.end(); ++at) names_.emplace_back(at.name());
     });
   } else {
-    const std::size_t count = read_png_values(path).alpha ? 4 : 3;
-    for (std::size_t k = 0; k < count; ++k) names.emplace_back(1, kPngNames[k]);
+    png_ = std::make_unique<const PngValues>(read_png_values(path));
+    const std::size_t count = png_->alpha ? 4 : 3;
+    for (std::size_t k = 0; k < count; ++k) names_.emplace_back(1, kPngNames[k]);
   }
-  std::sort(names.begin(), names.end());
-  return names;
+  std::sort(names_.begin(), names_.end());
 }
 
-std::vector<uint32_t> channel_bits(const fs::path& path, const std::string& name) {
-  if (is_exr(path)) {
-    return with_exr(path, [&](Imf::InputFile& file) { return exr_bits(path, file, name); });
+ImageChannels::~ImageChannels() = default;
+
+std::vector<uint32_t> ImageChannels::bits(const std::string& name) const {
+  if (!png_) {
+    return with_exr(path_, [&](Imf::InputFile& file) { return exr_bits(path_, file, name); });
   }
-  const PngValues png = read_png_values(path);
-  const std::size_t components = png.alpha ? 4 : 3;
+  const std::size_t components = png_->alpha ? 4 : 3;
   std::vector<uint32_t> bits;
-  bits.reserve(png.values.size() / components);
-  for (std::size_t i = std::string(kPngNames).find(name); i < png.values.size(); i += components) {
-    bits.push_back(png.values[i]);
+  bits.reserve(png_->values.size() / components);
+  for (std::size_t i = std::string(kPngNames).find(name); i < png_->values.size();
+       i += components) {
+    bits.push_back(png_->values[i]);
   }
   return bits;
 }

@@ -3,11 +3,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace trisect {
+
+struct PngValues;
 
 // The image of which a file is a part. x, y: of the part's top left pixel, from the image's; those
 // of an EXR may lie outside.
@@ -30,12 +33,29 @@ std::string window_text(const std::optional<ImageWindow>& window);
 // is no `--tile`.
 std::optional<ImageWindow> read_window(const std::filesystem::path& path);
 
-// Sorted: R, G and B of a PNG, and A if it has that; all channels of an EXR.
-std::vector<std::string> channel_names(const std::filesystem::path& path);
+// A file of which a channel is read at a time. The constructor reads a PNG whole, of an EXR the
+// header only.
+class ImageChannels {
+ public:
+  explicit ImageChannels(const std::filesystem::path& path);
+  ~ImageChannels();
+  ImageChannels(const ImageChannels&) = delete;
+  ImageChannels& operator=(const ImageChannels&) = delete;
+  ImageChannels(ImageChannels&&) = delete;
+  ImageChannels& operator=(ImageChannels&&) = delete;
 
-// The bits of one channel's numbers, in raster order: 16-bit numbers of a PNG (8 bits times 257),
-// single precision of an EXR's halves and floats, its unsigned numbers as they are. An EXR's
-// channel with fewer numbers than pixels is refused.
-std::vector<uint32_t> channel_bits(const std::filesystem::path& path, const std::string& name);
+  // Sorted: R, G and B of a PNG, and A if it has that; all channels of an EXR.
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+
+  // The bits of one channel's numbers, in raster order: 16-bit numbers of a PNG (8 bits times 257),
+  // single precision of an EXR's halves and floats, its unsigned numbers as they are. An EXR's
+  // channel with fewer numbers than pixels is refused.
+  [[nodiscard]] std::vector<uint32_t> bits(const std::string& name) const;
+
+ private:
+  std::filesystem::path path_;
+  std::unique_ptr<const PngValues> png_;  // none of an EXR
+  std::vector<std::string> names_;
+};
 
 }  // namespace trisect

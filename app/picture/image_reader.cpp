@@ -7,16 +7,13 @@
 #include <ImfIntAttribute.h>
 #include <ImfStringAttribute.h>
 #include <ImfVecAttribute.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <exception>
 #include <string>
 #include <system_error>
 
 #include "app/base/error.h"
-#include "app/base/message.h"
 #include "app/base/read_file.h"
 #include "app/base/srgb.h"
 #include "app/picture/image_file.h"
@@ -27,15 +24,6 @@ namespace trisect {
 namespace {
 
 namespace fs = std::filesystem;
-
-// why: as the library has it, which may name the file again: 'Cannot read image file "a.exr". '
-InputError unreadable(const fs::path& path, std::string why) {
-  const std::string named = fmt::format("image file \"{}\". ", path.string());
-  if (const std::size_t at = why.find(named); at != std::string::npos) {
-    why.erase(0, at + named.size());
-  }
-  return InputError(fmt::format("{}: could not be read: {}.", path.string(), reason_of(why)));
-}
 
 Frame read_png(const fs::path& path) {
   const PngValues png = read_png_values(path);
@@ -99,8 +87,7 @@ void insert(Imf::FrameBuffer& buffer, const Slot& slot, const Imath::Box2i& wind
 }
 
 Frame read_exr(const fs::path& path) {
-  try {
-    Imf::InputFile file = open_exr(path);
+  return with_exr(path, [&](Imf::InputFile& file) {
     const Imath::Box2i window = file.header().dataWindow();
     Frame frame;
     frame.resize(static_cast<uint32_t>(window.max.x - window.min.x + 1),
@@ -125,16 +112,11 @@ Frame read_exr(const fs::path& path) {
       for (int k = 0; k < 3; ++k) color[k] = srgb_from_linear(color[k]);
     }
     return frame;
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw unreadable(path, error.what());
-  }
+  });
 }
 
 ImageTexts exr_attributes(const fs::path& path) {
-  try {
-    const Imf::InputFile file = open_exr(path);
+  return with_exr(path, [](const Imf::InputFile& file) {
     ImageTexts found;
     const Imf::Header& header = file.header();
     for (auto entry = header.begin(); entry != header.end(); ++entry) {
@@ -153,9 +135,7 @@ ImageTexts exr_attributes(const fs::path& path) {
       }
     }
     return found;
-  } catch (const std::exception& error) {
-    throw unreadable(path, error.what());
-  }
+  });
 }
 
 // Throws UsageError for a picture that is neither PNG nor EXR, InputError for one that is not

@@ -1,12 +1,14 @@
 #include "app/picture/open_exr.h"
 
 #include <ImfHeader.h>
+#include <fmt/format.h>
 
 #include <cstdint>
 #include <fstream>
 #include <stdexcept>
 #include <string>
 
+#include "app/base/message.h"
 #include "app/frame/image_part.h"
 
 namespace trisect {
@@ -43,6 +45,14 @@ Imf::InputFile open_exr(const std::filesystem::path& path) {
   }();
   expect_attributes(path);
   return Imf::InputFile(path.c_str());
+}
+
+InputError unreadable(const std::filesystem::path& path, std::string why) {
+  const std::string named = fmt::format("image file \"{}\". ", path.string());
+  if (const std::size_t at = why.find(named); at != std::string::npos) {
+    why.erase(0, at + named.size());
+  }
+  return InputError(fmt::format("{}: could not be read: {}.", path.string(), reason_of(why)));
 }
 
 }  // namespace trisect

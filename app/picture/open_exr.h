@@ -3,7 +3,11 @@
 
 #include <ImfInputFile.h>
 
+#include <exception>
 #include <filesystem>
+#include <string>
+
+#include "app/base/error.h"
 
 namespace trisect {
 
@@ -11,5 +15,24 @@ namespace trisect {
 // machine has memory for, and OpenEXR takes memory for a row at once. The limit is OpenEXR's own
 // and from then on the process's. Throws what OpenEXR throws.
 Imf::InputFile open_exr(const std::filesystem::path& path);
+
+// "FILE: could not be read: WHY." why: as OpenEXR has it, which may name the file again: 'Cannot
+// read image file "a.exr". '
+InputError unreadable(const std::filesystem::path& path, std::string why);
+
+// use(file) of an opened file, with what OpenEXR throws as InputError.
+template <typename Use>
+auto with_exr(const std::filesystem::path& path, const Use& use) {
+  try {
+    Imf::InputFile file = open_exr(path);
+    return use(file);
+  } catch (const InputError&) {
+    throw;
+  } catch (const OutOfMemory&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw unreadable(path, error.what());
+  }
+}
 
 }  // namespace trisect

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "app/base/error.h"
-#include "app/base/message.h"
 #include "app/cli/cache_folder.h"
 #include "app/cli/load_scene.h"
 #include "app/cli/output.h"
@@ -37,11 +36,7 @@ int view_model(const ViewOptions& options) {
     stats.write(view::to_json(viewer.statistics()));
     stats.commit();
   }
-  const std::vector<std::string> messages = instance.log().messages();
-  for (const std::string& message : messages) {
-    fmt::print(stderr, "validation: {}\n", escaped_lines(message));
-  }
-  return messages.empty() ? exit_done : exit_internal;
+  return report_validation(instance.log().messages());
 }
 
 }  // namespace trisect

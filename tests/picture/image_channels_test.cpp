@@ -66,11 +66,11 @@ TEST(ImageChannels, OfPngAreTheNumbersThatItHas) {
           {PngFormat{16, PNG_COLOR_TYPE_RGB, interlace}, wide}}) {
       write_small_png(path, format, bytes);
       const bool alpha = format.color_type == PNG_COLOR_TYPE_RGB_ALPHA;
-      EXPECT_EQ(channel_names(path), alpha ? (std::vector<std::string>{"A", "B", "G", "R"})
-                                           : (std::vector<std::string>{"B", "G", "R"}));
-      for (const char* name : {"R", "G", "B"}) EXPECT_EQ(channel_bits(path, name), expected);
+      EXPECT_EQ(ImageChannels(path).names(), alpha ? (std::vector<std::string>{"A", "B", "G", "R"})
+                                                   : (std::vector<std::string>{"B", "G", "R"}));
+      for (const char* name : {"R", "G", "B"}) EXPECT_EQ(ImageChannels(path).bits(name), expected);
       if (alpha) {
-        EXPECT_EQ(channel_bits(path, "A"), std::vector<uint32_t>(4, 77 * 257));
+        EXPECT_EQ(ImageChannels(path).bits("A"), std::vector<uint32_t>(4, 77 * 257));
       }
       const Frame frame = read_image(path);
       EXPECT_EQ(frame.colors[1], vec4(0.2F, 0.2F, 0.2F, alpha ? 77.0F / 255.0F : 1.0F));
@@ -78,7 +78,7 @@ TEST(ImageChannels, OfPngAreTheNumbersThatItHas) {
   }
   // 16 bits are not cut to 8.
   write_small_png(path, {16, PNG_COLOR_TYPE_GRAY}, {0, 0, 0, 1, 1, 2, 255, 254});
-  EXPECT_EQ(channel_bits(path, "G"), (std::vector<uint32_t>{0, 1, 258, 65534}));
+  EXPECT_EQ(ImageChannels(path).bits("G"), (std::vector<uint32_t>{0, 1, 258, 65534}));
 }
 
 // Colours in linear light, which the file says they are, become sRGB. libpng takes a power of 2.2
@@ -111,9 +111,9 @@ TEST(ImageChannels, OfExrAreTheBitsOfItsNumbers) {
     write_exr(frame, file);
     file.commit();
   }
-  EXPECT_EQ(channel_bits(path, "patch"),
+  EXPECT_EQ(ImageChannels(path).bits("patch"),
             (std::vector<uint32_t>{1000, 1001, 1002, 1003, 1004, 1005}));
-  const std::vector<uint32_t> bits = channel_bits(path, "V");
+  const std::vector<uint32_t> bits = ImageChannels(path).bits("V");
   for (uint32_t i = 0; i < 6; ++i) {
     EXPECT_EQ(bits[i], std::bit_cast<uint32_t>(frame.aovs[i].v)) << i;
   }
@@ -135,7 +135,7 @@ TEST(ImageChannels, OfPartsAreInAWindow) {
     EXPECT_EQ(window_text(read_window(folder / name)), "at 4,5 in an image of 30x20");
   }
   EXPECT_THROW(read_window(folder / "none.exr"), InputError);
-  EXPECT_THROW(channel_names(folder / "none.png"), InputError);
+  EXPECT_THROW(ImageChannels(folder / "none.png"), InputError);
 }
 
 }  // namespace
