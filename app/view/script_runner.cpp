@@ -13,11 +13,11 @@ double ScriptRunner::elapsed(Clock::time_point now) const {
 }
 
 bool ScriptRunner::is_due(Clock::time_point now) const {
-  return next_ < steps_.size() && steps_[next_].seconds <= elapsed(now);
+  return start_ && next_ < steps_.size() && steps_[next_].seconds <= elapsed(now);
 }
 
 std::optional<double> ScriptRunner::seconds_until_next(Clock::time_point now) const {
-  if (next_ == steps_.size()) return std::nullopt;
+  if (!start_ || next_ == steps_.size()) return std::nullopt;
   return steps_[next_].seconds - elapsed(now);
 }
 
@@ -28,7 +28,7 @@ bool ScriptRunner::holds(int key, Clock::time_point now) const {
 }
 
 bool ScriptRunner::run_next(ScriptActions& actions, Clock::time_point now) {
-  if (!has_started() || !is_due(now)) return false;
+  if (!is_due(now)) return false;
   perform(steps_[next_++], actions, now);
   return true;
 }

@@ -33,7 +33,7 @@ class ScriptActions {
   virtual void quit() = 0;
 };
 
-// The times of a script count from start(); before that its clock stands at 0 and nothing is done.
+// The times of a script count from start(); before that nothing is due.
 // Not thread safe.
 class ScriptRunner {
  public:
@@ -47,10 +47,10 @@ class ScriptRunner {
   // through, and the step counts as done.
   bool run_next(ScriptActions& actions, Clock::time_point now);
 
-  // Whether the time of the next step has come. One at 0 s is due before start(), too.
+  // Whether the time of the next step has come.
   [[nodiscard]] bool is_due(Clock::time_point now) const;
 
-  // Seconds until the next step, possibly negative; nothing after the last one.
+  // Seconds until the next step, possibly negative; nothing before start() and after the last one.
   [[nodiscard]] std::optional<double> seconds_until_next(Clock::time_point now) const;
 
   // Whether a `hold` step holds this key now.

@@ -204,7 +204,10 @@ void Viewer::show() {
   // What waits for kernels is not the frame that is wanted.
   if (!state_.model.is_loaded() || tracer_.is_waiting()) return;
   ++statistics_.frames;
-  if (script_.has_started() || statistics_.frames < kFramesToStart) return;
+  if (script_.has_started()) return;
+  // However much of the picture is still to come.
+  scheduler_.request_draws(1);
+  if (statistics_.frames < kFramesToStart) return;
   script_.start(Clock::now());
   name_model_in_title();
 }

@@ -89,8 +89,8 @@ TEST(ScriptRunner, DoesNothingBeforeItsStart) {
   RecordedActions actions;
   EXPECT_FALSE(runner.has_started());
   EXPECT_FALSE(runner.run_next(actions, at(50.0)));
-  EXPECT_EQ(*runner.seconds_until_next(at(50.0)), 0.0);
-  EXPECT_TRUE(runner.is_due(at(50.0)));
+  EXPECT_FALSE(runner.seconds_until_next(at(50.0)));
+  EXPECT_FALSE(runner.is_due(at(50.0)));
   runner.start(at(50.0));
   EXPECT_TRUE(runner.has_started());
   EXPECT_TRUE(runner.run_next(actions, at(50.0)));

@@ -106,6 +106,13 @@ TEST_F(View, TakesEveryControl) {
   EXPECT_GT(stats()["frames"].get<int>(), 5);
 }
 
+// The picture has to come to an end before the script begins, whatever the script is to do then.
+TEST_F(View, BeginsAScriptAfterAPictureThatTakesItsTime) {
+  const test::ProgramRun run =
+      view("0 quit\n", {"--size", "800x600", "--shadows"}, test::asset_path("torus"));
+  ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
+}
+
 TEST_F(View, SurvivesEverySize) {
   std::string script;
   for (int i = 0; i < 20; ++i) {
