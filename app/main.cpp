@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
   try {
     keep_standard_files();
     catch_interrupts();
+    tell_what_nothing_catches();
     return CommandLine().run(argc, argv);
   } catch (const UsageError& error) {
     return fail(exit_usage, error.what());

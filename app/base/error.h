@@ -1,6 +1,8 @@
 // The errors that a user can cause, each one clear sentence. ExitCode: what the program ends with.
 #pragma once
 
+#include <exception>
+#include <new>
 #include <stdexcept>
 
 #include "vk/error.h"
@@ -36,6 +38,14 @@ using NoDevice = gpu::NoDevice;
 using DeviceLost = gpu::DeviceLost;
 // Also the machine's memory, for libraries that do not throw std::bad_alloc.
 using OutOfMemory = gpu::OutOfMemory;
+
+// Whether an error is told as it is by whoever makes one of its own of what a library throws.
+inline bool is_told_as_it_is(const std::exception& error) {
+  return dynamic_cast<const UsageError*>(&error) != nullptr ||
+         dynamic_cast<const InputError*>(&error) != nullptr ||
+         dynamic_cast<const OutOfMemory*>(&error) != nullptr ||
+         dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+}
 
 inline constexpr const char* kNoMemory = "not enough memory for this model and image size.";
 

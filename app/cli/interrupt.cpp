@@ -4,6 +4,8 @@
 
 #include <csignal>
 #include <cstring>
+#include <exception>
+#include <new>
 
 #include "app/base/error.h"
 #include "app/base/temporary_names.h"
@@ -41,6 +43,18 @@ void catch_interrupts() {
     // Whoever started the program with the signal ignored (nohup) wants it ignored.
     if (inherited.sa_handler != SIG_IGN) sigaction(number, &action, nullptr);
   }
+}
+
+void tell_what_nothing_catches() {
+  std::set_terminate([] {
+    try {
+      if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
+    } catch (const std::bad_alloc&) {
+      end_at_once(exit_out_of_memory, kNoMemory);
+    } catch (...) {  // of which no more is told than that it was
+    }
+    end_at_once(exit_internal, "internal error: an exception that nothing catches.");
+  });
 }
 
 void ends_in_order() {

@@ -20,6 +20,10 @@ class Interrupted : public std::runtime_error {
 // that becomes larger than allowed (SIGXFSZ) is an error of writing.
 void catch_interrupts();
 
+// Has an exception that nothing can catch end_at_once(): one that leaves a destructor, as that of a
+// library's JSON which needs memory, or a thread.
+void tell_what_nothing_catches();
+
 // For an error that is about to be told: from here on the program ends by itself.
 void ends_in_order();
 

@@ -129,6 +129,7 @@ void write_exr(const Frame& frame, const AtomicFile& file, const ImageContents& 
     out.setFrameBuffer(channels.slices());
     out.writePixels(static_cast<int>(frame.height));
   } catch (const std::exception& error) {
+    if (is_told_as_it_is(error)) throw;
     throw InputError(fmt::format("{}: could not be written: {}.", file.target().string(),
                                  reason_of(error.what())));
   }

@@ -26,11 +26,8 @@ auto with_exr(const std::filesystem::path& path, const Use& use) {
   try {
     Imf::InputFile file = open_exr(path);
     return use(file);
-  } catch (const InputError&) {
-    throw;
-  } catch (const OutOfMemory&) {
-    throw;
   } catch (const std::exception& error) {
+    if (is_told_as_it_is(error)) throw;
     throw unreadable(path, error.what());
   }
 }

@@ -281,6 +281,10 @@ bool is_whole_image(const fs::path& path) {
       ExrChannels(whole).read(file);
     }
     return true;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const OutOfMemory&) {
+    throw;
   } catch (const std::exception&) {
     return false;
   }
@@ -296,11 +300,8 @@ void stitch(const std::vector<fs::path>& parts, ImageFormat format, const Atomic
   if (format == ImageFormat::pfm) throw UsageError("a PFM does not say which part it is.");
   try {
     format == ImageFormat::png ? stitch_png(parts, file) : stitch_exr(parts, file);
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw;
   } catch (const std::exception& error) {
+    if (is_told_as_it_is(error)) throw;
     refuse(file.target(), fmt::format("could not be made: {}", reason_of(error.what())));
   }
 }

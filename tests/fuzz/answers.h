@@ -2,9 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "app/base/error.h"
@@ -17,15 +17,25 @@ inline void expect(bool is_right, const std::string& what) {
   if (!is_right) throw Finding(what);
 }
 
+// How many inputs were answered with an error.
+inline uint64_t& refusals() {
+  static uint64_t count = 0;
+  return count;
+}
+
 // Calls it. The errors that a user can cause are right answers, if they say something.
 template <typename Call>
 void expect_answer(const Call& call) {
+  const auto refused = [](const char* words) {
+    ++refusals();
+    expect(words[0] != '\0', "an error without words");
+  };
   try {
     call();
   } catch (const UsageError& error) {
-    expect(error.what()[0] != '\0', "an error without words");
+    refused(error.what());
   } catch (const InputError& error) {
-    expect(error.what()[0] != '\0', "an error without words");
+    refused(error.what());
   }
 }
 
@@ -61,10 +71,13 @@ inline std::filesystem::path input_folder() {
 
 inline std::filesystem::path write_input(const std::string& name, Bytes content) {
   std::filesystem::path path = input_folder() / name;
-  std::ofstream file(path, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(content.data()),
-             static_cast<std::streamsize>(content.size()));
-  if (!file.flush()) throw std::runtime_error("an input could not be written");
+  // Not by a stream, to which it is a failure to write if there is no memory.
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  if (file == nullptr) throw std::runtime_error("an input could not be made");
+  const bool is_written = std::fwrite(content.data(), 1, content.size(), file) == content.size();
+  if (std::fclose(file) != 0 || !is_written) {
+    throw std::runtime_error("an input could not be written");
+  }
   return path;
 }
 
