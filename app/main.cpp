@@ -10,6 +10,7 @@
 #include "app/base/message.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/standard_output.h"
+#include "app/cli/threads_setting.h"
 #include "app/program/command_line.h"
 
 namespace trisect {
@@ -31,6 +32,7 @@ int main(int argc, char** argv) {
     keep_standard_files();
     catch_interrupts();
     tell_what_nothing_catches();
+    take_threads_setting();
     return CommandLine().run(argc, argv);
   } catch (const UsageError& error) {
     return fail(exit_usage, error.what());

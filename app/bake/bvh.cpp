@@ -1,6 +1,7 @@
 #include "app/bake/bvh.h"
 
 #include <embree3/rtcore.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -13,6 +14,7 @@
 #include <string>
 
 #include "app/base/error.h"
+#include "app/base/threads.h"
 
 namespace trisect {
 namespace {
@@ -229,7 +231,7 @@ std::vector<BvhNode> build_bvh(const BakedScene& scene) {
   }
 
   const std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice> device(
-      rtcNewDevice(nullptr));
+      rtcNewDevice(fmt::format("threads={}", worker_threads()).c_str()));
   const std::unique_ptr<std::remove_pointer_t<RTCBVH>, ReleaseBvh> memory(rtcNewBVH(device.get()));
   RTCBuildArguments arguments = rtcDefaultBuildArguments();
   arguments.maxBranchingFactor = BVH_CHILDREN;

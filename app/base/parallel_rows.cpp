@@ -6,8 +6,11 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
+
+#include "app/base/threads.h"
 
 namespace trisect {
 
@@ -19,7 +22,8 @@ bool parallel_rows(uint32_t height, const std::function<void(uint32_t, const Sto
   std::condition_variable ended;
   std::exception_ptr error;
   Stopped stopped = false;
-  unsigned running = std::max(std::thread::hardware_concurrency(), 1U);
+  const unsigned wanted = worker_threads();
+  unsigned running = wanted;
   const auto stop_with = [&](const std::exception_ptr& reason) {
     const std::scoped_lock lock(mutex);
     if (!error) error = reason;
@@ -40,8 +44,18 @@ bool parallel_rows(uint32_t height, const std::function<void(uint32_t, const Sto
     ended.notify_one();
   };
   std::vector<std::jthread> threads;
-  threads.reserve(running);
-  for (unsigned i = running; i > 0; --i) threads.emplace_back(work);
+  threads.reserve(wanted);
+  try {
+    for (unsigned i = 0; i < wanted; ++i) threads.emplace_back(work);
+  } catch (const std::system_error&) {
+    // There are fewer than there could be, but they, or this one, do the work.
+    const std::scoped_lock lock(mutex);
+    running -= wanted - static_cast<unsigned>(threads.size());
+  }
+  if (threads.empty()) {
+    running = 1;
+    work();
+  }
   {
     std::unique_lock lock(mutex);
     while (running > 0) {

@@ -1,4 +1,4 @@
-// Work on the rows of an image, or on chunks of a list, spread over all cores.
+// Work on the rows of an image, or on chunks of a list, spread over threads.
 #pragma once
 
 #include <atomic>
@@ -10,11 +10,12 @@
 
 namespace trisect {
 
-// Calls row(y) once for every y below `height`, on as many threads as there are cores: `row` must
-// be safe to call from several threads at once. Calls progress(rows done), if set, on the calling
-// thread about five times a second and at the end; where it returns false the rows that have not
-// begun are left out. Returns true if every row was done and progress never returned false. The
-// first exception that row or progress throws ends the work too and is rethrown here.
+// Calls row(y) once for every y below `height`, on worker_threads() threads, or as many as the
+// system gives: `row` must be safe to call from several threads at once. Calls progress(rows done),
+// if set, on the calling thread about five times a second and at the end; where it returns false
+// the rows that have not begun are left out. Returns true if every row was done and progress never
+// returned false. The first exception that row or progress throws ends the work too and is rethrown
+// here.
 bool parallel_rows(uint32_t height, const std::function<void(uint32_t)>& row,
                    const Progress& progress);
 

@@ -1,4 +1,5 @@
 #include <embree3/rtcore.h>
+#include <fmt/format.h>
 
 #include <array>
 #include <atomic>
@@ -9,6 +10,7 @@
 #include "app/base/error.h"
 #include "app/base/parallel_rows.h"
 #include "app/base/stopwatch.h"
+#include "app/base/threads.h"
 #include "app/bench/contender.h"
 #include "app/cli/interrupt.h"
 #include "app/dispatch/kernel_float.h"
@@ -46,7 +48,7 @@ class OnEmbree : public Contender {
         n_(flat.n),
         rays_(rays),
         kernel_(in_float::kernel_of(scene, params_, {})),
-        device_(rtcNewDevice(nullptr)) {
+        device_(rtcNewDevice(fmt::format("threads={}", worker_threads()).c_str())) {
     rtcSetDeviceMemoryMonitorFunction(device_.get(), count_bytes, &bytes_);
     scene_.reset(rtcNewScene(device_.get()));
     RTCGeometry triangles = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);

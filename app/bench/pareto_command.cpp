@@ -3,10 +3,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "app/base/error.h"
+#include "app/base/threads.h"
 #include "app/bench/commands.h"
 #include "app/bench/gnuplot.h"
 #include "app/bench/pareto.h"
@@ -37,7 +37,7 @@ std::vector<std::string> provenance(const gpu::Device& device, const opengl::Con
   return {fmt::format("Vulkan: {}, {}", device.report().name, device.report().driver),
           context == nullptr ? "OpenGL: left out"
                              : fmt::format("OpenGL: {}, {}", context->device(), context->driver()),
-          fmt::format("CPU: {} threads", std::thread::hardware_concurrency()), program_and_date(),
+          fmt::format("CPU: {} threads", worker_threads()), program_and_date(),
           fmt::format("{}x{} pixels, {} frames each after a warm-up, in turns", options.width,
                       options.height, options.runs)};
 }

@@ -3,22 +3,18 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIntAttribute.h>
-#include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <ImfVecAttribute.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <exception>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "app/base/error.h"
-#include "app/base/message.h"
 #include "app/base/srgb.h"
+#include "app/picture/exr_output.h"
 #include "app/picture/image_file.h"
 
 namespace trisect {
@@ -124,15 +120,7 @@ void write_exr(const Frame& frame, const AtomicFile& file, const ImageContents& 
     channels.add("P.Y", Imf::FLOAT, contents.positions, component);
     channels.add("P.Z", Imf::FLOAT, contents.positions, 2 * component);
   }
-  try {
-    Imf::OutputFile out(file.temporary().c_str(), header);
-    out.setFrameBuffer(channels.slices());
-    out.writePixels(static_cast<int>(frame.height));
-  } catch (const std::exception& error) {
-    if (is_told_as_it_is(error)) throw;
-    throw InputError(fmt::format("{}: could not be written: {}.", file.target().string(),
-                                 reason_of(error.what())));
-  }
+  write_exr_pixels(header, channels.slices(), file);
 }
 
 }  // namespace trisect

@@ -3,7 +3,6 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfOutputFile.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,6 +16,7 @@
 
 #include "app/base/error.h"
 #include "app/base/message.h"
+#include "app/picture/exr_output.h"
 #include "app/picture/image_reader.h"
 #include "app/picture/open_exr.h"
 #include "app/picture/png_pixels.h"
@@ -240,9 +240,7 @@ void stitch_exr(const std::vector<fs::path>& parts, const AtomicFile& file) {
   coverage->expect_all(parts.front());
   header->dataWindow() = header->displayWindow();
   for (const std::string& name : part_texts.not_of_all()) header->erase(name.c_str());
-  Imf::OutputFile out(file.temporary().c_str(), *header);
-  out.setFrameBuffer(channels->slices());
-  out.writePixels(header->dataWindow().max.y - header->dataWindow().min.y + 1);
+  write_exr_pixels(*header, channels->slices(), file);
 }
 
 }  // namespace

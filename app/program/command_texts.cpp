@@ -148,6 +148,9 @@ std::vector<Term> exit_codes() {
 
 std::vector<Term> environment() {
   return {{"COLUMNS", "How wide help is, in characters; as wide as the terminal without it."},
+          {"TRISECT_THREADS",
+           "How many threads work on the CPU; as many as there are cores that the program may use "
+           "without it. A driver that runs on the CPU has its own (LP_NUM_THREADS of Mesa)."},
           {"XDG_CACHE_HOME", "The folder that holds the program's cache, ~/.cache without it."},
           {"VK_ICD_FILENAMES",
            "The Vulkan loader's: the drivers to take, by their manifests, rather than all that are "

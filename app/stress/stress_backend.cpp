@@ -4,9 +4,9 @@
 
 #include <map>
 #include <memory>
-#include <thread>
 #include <tuple>
 
+#include "app/base/threads.h"
 #include "app/dispatch/cpu_tracer.h"
 #include "app/dispatch/ray_caster.h"
 #include "app/dispatch/vulkan_tracer.h"
@@ -37,7 +37,7 @@ StressBackend vulkan_stress_backend(const gpu::Device& device) {
 
 StressBackend cpu_stress_backend() {
   StressBackend backend;
-  backend.device = fmt::format("CPU, {} threads", std::thread::hardware_concurrency());
+  backend.device = fmt::format("CPU, {} threads", worker_threads());
   backend.driver = "the kernel as C++, single precision";
   backend.cast = [](const BakedScene& scene, const TraceParams& params, uint solver,
                     std::span<const CastRay> rays) {

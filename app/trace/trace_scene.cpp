@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <thread>
 #include <utility>
 
 #include "app/base/stopwatch.h"
+#include "app/base/threads.h"
 #include "app/dispatch/cpu_tracer.h"
 #include "app/dispatch/pipeline_store.h"
 #include "app/dispatch/vulkan_tracer.h"
@@ -76,7 +76,7 @@ class HostScene : public SceneTracer {
  public:
   HostScene(const BakedScene& scene, const KernelChoice& choice, const char* driver)
       : scene_(scene), choice_(choice) {
-    device_ = fmt::format("CPU, {} threads", std::thread::hardware_concurrency());
+    device_ = fmt::format("CPU, {} threads", worker_threads());
     driver_ = driver;
   }
 

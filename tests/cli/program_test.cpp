@@ -498,6 +498,19 @@ TEST_F(Program, WritesNothingOverWhatItReads) {
   EXPECT_EQ(files(), 2U);
 }
 
+TEST_F(Program, WorksOnAsManyThreadsAsTheEnvironmentSays) {
+  const std::vector<std::string> words{
+      "render", test::asset_path("cube"), "--size", "8x8", "--backend", "cpu",
+      "-o",     folder_ / "a.png"};
+  for (const char* wrong : {"", "0", "-1", "1025", "2x", "99999999999"}) {
+    expect_complaint(run_trisect(words, {std::string("TRISECT_THREADS=") + wrong}), 2,
+                     fmt::format("TRISECT_THREADS is '{}': a whole number from 1 to 1024", wrong));
+  }
+  const test::ProgramRun run = run_trisect(words, {"TRISECT_THREADS=3"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("CPU, 3 threads"), std::string::npos) << run.out;
+}
+
 TEST_F(Program, LastOfARepeatedOptionCounts) {
   ASSERT_EQ(render({"--size", "16x8"}, "a.exr").exit_code, 0);
   EXPECT_EQ(test::read_exr(folder_ / "a.exr").width, 16U);

@@ -83,7 +83,8 @@ int exit_code_of(Answer answer, const fuzz::Seed& seed, uint64_t failing, uint64
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-// OpenEXR 3.1 leaks if its allocations fail, and to its stream it is a failure to write.
+// OpenEXR 3.1 leaks if its allocations fail, and takes it for a failure to write if those of its
+// strings' streams do.
 bool is_exr(const fuzz::Seed& seed) {
   return seed.kind == "picture" && seed.content[0] % 2 == 1;
 }

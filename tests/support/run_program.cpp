@@ -12,6 +12,7 @@
 #include <map>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "tests/support/file_content.h"
 #include "tests/support/temporary_folder.h"
@@ -41,16 +42,12 @@ void wait_for(pid_t child, int& status, int seconds_at_most) {
   }
 }
 
-ProgramRun run(const std::vector<std::string>& arguments,
-               const std::vector<std::string>& environment, int interrupt_after_ms,
-               int seconds_at_most) {
+ProgramRun run(std::vector<std::string> words, const std::vector<std::string>& environment,
+               int interrupt_after_ms, int seconds_at_most) {
   const TemporaryFolder folder;
   const std::string out = folder / "out";
   const std::string err = folder / "err";
 
-  const std::string program = program_path();
-  std::vector<std::string> words{program};
-  words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());
@@ -84,10 +81,10 @@ ProgramRun run(const std::vector<std::string>& arguments,
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
   pid_t child = 0;
   const int spawned =
-      posix_spawn(&child, program.c_str(), &actions, &attributes, argv.data(), envp.data());
+      posix_spawnp(&child, argv.front(), &actions, &attributes, argv.data(), envp.data());
   posix_spawn_file_actions_destroy(&actions);
   posix_spawnattr_destroy(&attributes);
-  if (spawned != 0) throw std::runtime_error("cannot start " + program);
+  if (spawned != 0) throw std::runtime_error("cannot start " + words.front());
   if (interrupt_after_ms > 0) {
     std::this_thread::sleep_for(std::chrono::milliseconds(interrupt_after_ms));
     kill(child, SIGINT);
@@ -102,15 +99,25 @@ ProgramRun run(const std::vector<std::string>& arguments,
   return {code, content_of(out), content_of(err)};
 }
 
+std::vector<std::string> trisect_with(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), program_path());
+  return arguments;
+}
+
 }  // namespace
 
 std::string program_path() {
   return std::filesystem::read_symlink("/proc/self/exe").replace_filename("trisect").string();
 }
 
+ProgramRun run_program(std::vector<std::string> words, const std::vector<std::string>& environment,
+                       int seconds_at_most) {
+  return run(std::move(words), environment, 0, seconds_at_most);
+}
+
 ProgramRun run_trisect(const std::vector<std::string>& arguments,
                        const std::vector<std::string>& environment, int seconds_at_most) {
-  return run(arguments, environment, 0, seconds_at_most);
+  return run(trisect_with(arguments), environment, 0, seconds_at_most);
 }
 
 std::vector<std::string> layer_environment(const std::string& layer) {
@@ -118,7 +125,7 @@ std::vector<std::string> layer_environment(const std::string& layer) {
 }
 
 ProgramRun interrupt_trisect(const std::vector<std::string>& arguments, int after_ms) {
-  return run(arguments, {}, after_ms, 0);
+  return run(trisect_with(arguments), {}, after_ms, 0);
 }
 
 }  // namespace trisect::test

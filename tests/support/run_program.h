@@ -15,8 +15,13 @@ struct ProgramRun {
 // The program, which lies beside the test.
 std::string program_path();
 
-// environment: entries "NAME=value" that add to this process's or replace them; of two of a name
-// the last one. seconds_at_most: SIGKILL ends a program that takes longer; 0 for any time.
+// words: the program, by name or path, and its arguments. environment: entries "NAME=value" that
+// add to this process's or replace them; of two of a name the last one. seconds_at_most: SIGKILL
+// ends a program that takes longer; 0 for any time.
+ProgramRun run_program(std::vector<std::string> words,
+                       const std::vector<std::string>& environment = {}, int seconds_at_most = 0);
+
+// The same with trisect for the program.
 ProgramRun run_trisect(const std::vector<std::string>& arguments,
                        const std::vector<std::string>& environment = {}, int seconds_at_most = 0);
 
