@@ -1,5 +1,6 @@
 // The program: turns errors into sentences and exit codes.
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <stdexcept>
@@ -45,7 +46,8 @@ int main(int argc, char** argv) {
   } catch (const DeviceError& error) {
     return fail(exit_no_device, error.what());
   } catch (const Interrupted& error) {
-    return fail(exit_interrupted, error.what());
+    // Who has interrupted it does not wait for what drivers do when a process ends.
+    std::_Exit(fail(exit_interrupted, error.what()));
   } catch (const std::bad_alloc&) {
     return fail(exit_out_of_memory, kNoMemory);
   } catch (const std::length_error&) {

@@ -15,7 +15,7 @@ cmake --build --preset fuzz --target fuzzers
 
 # Inputs are files; in memory they are faster.
 TMPDIR=$(mktemp -d /dev/shm/trisect-fuzz-XXXXXX)
-export TMPDIR LSAN_OPTIONS=suppressions=tests/fuzz/leaks.txt:print_suppressions=0
+export TMPDIR LSAN_OPTIONS=suppressions=tests/sanitizers/leaks.txt:print_suppressions=0
 trap 'rm -rf "$TMPDIR"' EXIT
 corpus=build/fuzz/corpus
 mkdir -p build/fuzz/findings

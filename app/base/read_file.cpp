@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "app/base/error.h"
+#include "app/base/memory.h"
 
 namespace trisect {
 namespace {
@@ -60,7 +61,10 @@ std::string read_file(const std::filesystem::path& path) {
   if (status.st_size > 0) bytes.reserve(static_cast<std::size_t>(status.st_size) + least);
   for (std::size_t used = 0;;) {
     // Never more than doubled, so that an unknown size costs as much as a known one.
-    bytes.resize(used + std::max(least, std::min(used, bytes.capacity() - used)));
+    const std::size_t size = used + std::max(least, std::min(used, bytes.capacity() - used));
+    // What has no end, such as /dev/zero, is not read until the system ends the program.
+    if (size > bytes.capacity()) expect_memory(2.0 * static_cast<double>(size), path.string());
+    bytes.resize(size);
     const ssize_t got = read(file.descriptor(), bytes.data() + used, bytes.size() - used);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) fail_to("read", path);

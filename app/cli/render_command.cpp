@@ -34,7 +34,7 @@ void say_what_differs(const std::string& file, const SavedPicture& picture,
                       const std::vector<ImageAttribute>& now) {
   const auto differs = [&](const char* name, const std::string& then) {
     const auto is_named = [&](const ImageAttribute& attribute) { return attribute.name == name; };
-    return value_text(*std::find_if(now.begin(), now.end(), is_named)) != then;
+    return value_text(std::find_if(now.begin(), now.end(), is_named)->value) != then;
   };
   if (differs("device", picture.device) || differs("driver", picture.driver) ||
       differs("program", picture.program) || differs("commit", picture.commit)) {

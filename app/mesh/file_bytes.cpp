@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "app/base/error.h"
+#include "app/base/memory.h"
 #include "app/base/read_file.h"
 
 namespace trisect {
@@ -39,7 +40,12 @@ std::string decompressed(std::string& bytes, const std::string& name) {
       stream.next_out = reinterpret_cast<Bytef*>(buffer.data());
       stream.avail_out = static_cast<uInt>(buffer.size());
       result = inflate(&stream, Z_NO_FLUSH);
-      plain.append(buffer.data(), buffer.size() - stream.avail_out);
+      const std::size_t more = buffer.size() - stream.avail_out;
+      // A thousand times the file's size, at most (RFC 1951).
+      if (plain.size() + more > plain.capacity()) {
+        expect_memory(2.0 * static_cast<double>(plain.capacity()), name);
+      }
+      plain.append(buffer.data(), more);
     }
     used += given - stream.avail_in;
     if (result == Z_STREAM_END) {

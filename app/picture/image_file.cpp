@@ -21,8 +21,7 @@ ImageFormat image_format(const std::filesystem::path& path) {
   throw UsageError(path.string() + ": an image's name must end in .png, .exr or .pfm.");
 }
 
-std::string value_text(const ImageAttribute& attribute) {
-  const auto& value = attribute.value;
+std::string value_text(const ImageValue& value) {
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
   if (const auto* whole = std::get_if<int>(&value)) return std::to_string(*whole);
   if (const auto* number = std::get_if<double>(&value)) return number_text(*number);
@@ -33,7 +32,7 @@ std::string value_text(const ImageAttribute& attribute) {
 ImageTexts texts_of(const std::vector<ImageAttribute>& attributes) {
   ImageTexts texts;
   for (const ImageAttribute& attribute : attributes) {
-    texts.emplace_back(attribute.name, value_text(attribute));
+    texts.emplace_back(attribute.name, value_text(attribute.value));
   }
   return texts;
 }

@@ -17,10 +17,12 @@ namespace trisect {
 
 enum class ImageFormat { png, exr, pfm };
 
+using ImageValue = std::variant<std::string, int, double, glm::dvec3>;
+
 // What a file says of its picture: an attribute of an EXR file's header, a text of a PNG file.
 struct ImageAttribute {
   std::string name;
-  std::variant<std::string, int, double, glm::dvec3> value;
+  ImageValue value;
 };
 
 // The names and values of attributes, as value_text() has them.
@@ -53,8 +55,8 @@ struct ImageContents {
 // other.
 ImageFormat image_format(const std::filesystem::path& path);
 
-// The attribute's value as text; numbers are as short as they can be to be read back the same.
-std::string value_text(const ImageAttribute& attribute);
+// As text; numbers are as short as they can be to be read back the same.
+std::string value_text(const ImageValue& value);
 
 ImageTexts texts_of(const std::vector<ImageAttribute>& attributes);
 

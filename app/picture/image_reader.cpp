@@ -120,8 +120,8 @@ ImageTexts exr_attributes(const fs::path& path) {
     ImageTexts found;
     const Imf::Header& header = file.header();
     for (auto entry = header.begin(); entry != header.end(); ++entry) {
-      const auto add = [&](const decltype(ImageAttribute::value)& value) {
-        found.emplace_back(entry.name(), value_text({entry.name(), value}));
+      const auto add = [&](const ImageValue& value) {
+        found.emplace_back(entry.name(), value_text(value));
       };
       const Imf::Attribute& attribute = entry.attribute();
       if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute)) {

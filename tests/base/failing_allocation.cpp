@@ -51,12 +51,20 @@ int64_t blocks_in_use() {
 
 }  // namespace trisect::test
 
-// The standard library's other forms come down to these.
+// The standard library's other forms come down to these; a sanitizer's do not, so that the one that
+// operator delete goes with is here, too.
 void* operator new(std::size_t size) {
   return trisect::test::allocate(size, 1);
 }
 void* operator new(std::size_t size, std::align_val_t align) {
   return trisect::test::allocate(size, static_cast<std::size_t>(align));
+}
+void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
+  try {
+    return operator new(size);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
 }
 void operator delete(void* block) noexcept {
   trisect::test::give_back(block);

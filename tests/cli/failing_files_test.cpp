@@ -77,8 +77,9 @@ bool is_whole(const std::string& name, const std::string& content, const Run& go
   return content == good.files.at(name);
 }
 
-// Makes each of these calls fail once.
-void expect_each_told(const Command& command, const std::string& calls, const std::string& error) {
+// Makes each of these calls fail once; adds to runs how many there were.
+void expect_each_told(const Command& command, const std::string& calls, const std::string& error,
+                      int& runs) {
   const Run good = run(command, calls, "");
   SCOPED_TRACE(fmt::format("{}", fmt::join(command.words, " ")));
   ASSERT_EQ(good.program.exit_code, 0) << good.program.err;
@@ -91,6 +92,7 @@ void expect_each_told(const Command& command, const std::string& calls, const st
     if (call.starts_with("write(2,")) continue;
     const Run faulty =
         run(command, calls, fmt::format("{}:error={}:when={}", function, error, number));
+    ++runs;
     const std::string& err = faulty.program.err;
     SCOPED_TRACE(fmt::format("{}, {}: exit code {}, '{}'", call.substr(0, 100), error,
                              faulty.program.exit_code, err));
@@ -157,7 +159,9 @@ TEST(FailingFiles, AreToldWhicheverWriteItIs) {
   std::vector<Command> all = commands();
   all.push_back(pictures.stitched());
   all.push_back(pictures.compared());
-  for (const Command& command : all) expect_each_told(command, "write,writev", "ENOSPC");
+  int runs = 0;
+  for (const Command& command : all) expect_each_told(command, "write,writev", "ENOSPC", runs);
+  RecordProperty("runs", runs);
 }
 
 TEST(FailingFiles, AreToldWhicheverNameItIs) {
@@ -165,9 +169,11 @@ TEST(FailingFiles, AreToldWhicheverNameItIs) {
   std::vector<Command> all = commands();
   all.push_back(pictures.stitched());
   all.push_back(pictures.compared());
+  int runs = 0;
   for (const Command& command : all) {
-    if (!command.outputs.empty()) expect_each_told(command, "rename,linkat", "EIO");
+    if (!command.outputs.empty()) expect_each_told(command, "rename,linkat", "EIO", runs);
   }
+  RecordProperty("runs", runs);
 }
 
 }  // namespace

@@ -423,7 +423,7 @@ TEST_F(Program, ComplainsAboutDevicesWithCode4) {
 }
 
 TEST_F(Program, StopsWhenInterruptedAndLeavesNothing) {
-  const test::ProgramRun run = test::interrupt_trisect(
+  const test::ProgramRun run = test::signal_trisect(
       {"render", test::asset_path("teapot-1000"), "-o", folder_ / "a.png", "--size", "1600x1200",
        "--runs", "100000", "--stats", folder_ / "s.json"},
       1500);

@@ -92,6 +92,7 @@ bool is_exr(const fuzz::Seed& seed) {
 // most: runs of one input; of more allocations every second, third ... fails.
 void expect_each_told(const char* kind, Answer answer, uint64_t most) {
   std::size_t inputs = 0;
+  uint64_t all_runs = 0;
   for (const fuzz::Seed& seed : fuzz::seeds_of({TRISECT_ASSETS})) {
     if (seed.kind != kind) continue;
     SCOPED_TRACE(std::string(kind) + " " + std::to_string(++inputs));
@@ -115,11 +116,13 @@ void expect_each_told(const char* kind, Answer answer, uint64_t most) {
       EXPECT_TRUE(right.contains(code))
           << "allocation " << i << " of " << allocations << ": exit code " << code;
       ++runs[code];
+      ++all_runs;
     }
     EXPECT_GT(runs[exit_out_of_memory] + runs[kBlocksLeft],
               20 * (runs[exit_done] + runs[exit_bad_input]));
   }
   EXPECT_GT(inputs, 0U);
+  ::testing::Test::RecordProperty("runs", std::to_string(all_runs));
 }
 
 TEST(FailingAllocations, AreToldByReadersOfModelsAndTheBake) {

@@ -42,8 +42,14 @@ void wait_for(pid_t child, int& status, int seconds_at_most) {
   }
 }
 
+// What a run is sent, and when; 0: nothing.
+struct SignalAfter {
+  int number = 0;
+  int ms = 0;
+};
+
 ProgramRun run(std::vector<std::string> words, const std::vector<std::string>& environment,
-               int interrupt_after_ms, int seconds_at_most) {
+               const SignalAfter& signal, int seconds_at_most) {
   const TemporaryFolder folder;
   const std::string out = folder / "out";
   const std::string err = folder / "err";
@@ -85,10 +91,11 @@ ProgramRun run(std::vector<std::string> words, const std::vector<std::string>& e
   posix_spawn_file_actions_destroy(&actions);
   posix_spawnattr_destroy(&attributes);
   if (spawned != 0) throw std::runtime_error("cannot start " + words.front());
-  if (interrupt_after_ms > 0) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(interrupt_after_ms));
-    kill(child, SIGINT);
+  if (signal.number != 0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(signal.ms));
+    kill(child, signal.number);
   }
+  const auto signalled = std::chrono::steady_clock::now();
   int status = 0;
   if (seconds_at_most > 0) {
     wait_for(child, status, seconds_at_most);
@@ -96,7 +103,9 @@ ProgramRun run(std::vector<std::string> words, const std::vector<std::string>& e
     waitpid(child, &status, 0);
   }
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return {code, content_of(out), content_of(err)};
+  const auto after = std::chrono::steady_clock::now() - signalled;
+  return {code, content_of(out), content_of(err),
+          static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(after).count())};
 }
 
 std::vector<std::string> trisect_with(std::vector<std::string> arguments) {
@@ -112,20 +121,21 @@ std::string program_path() {
 
 ProgramRun run_program(std::vector<std::string> words, const std::vector<std::string>& environment,
                        int seconds_at_most) {
-  return run(std::move(words), environment, 0, seconds_at_most);
+  return run(std::move(words), environment, {}, seconds_at_most);
 }
 
 ProgramRun run_trisect(const std::vector<std::string>& arguments,
                        const std::vector<std::string>& environment, int seconds_at_most) {
-  return run(trisect_with(arguments), environment, 0, seconds_at_most);
+  return run(trisect_with(arguments), environment, {}, seconds_at_most);
 }
 
 std::vector<std::string> layer_environment(const std::string& layer) {
   return {"VK_ADD_LAYER_PATH=" TRISECT_LAYERS, "VK_INSTANCE_LAYERS=VK_LAYER_TRISECT_" + layer};
 }
 
-ProgramRun interrupt_trisect(const std::vector<std::string>& arguments, int after_ms) {
-  return run(trisect_with(arguments), {}, after_ms, 0);
+ProgramRun signal_trisect(const std::vector<std::string>& arguments, int after_ms, int signal,
+                          const std::vector<std::string>& environment) {
+  return run(trisect_with(arguments), environment, {signal, after_ms}, 0);
 }
 
 }  // namespace trisect::test

@@ -1,6 +1,7 @@
 // Runs the trisect program as a user does.
 #pragma once
 
+#include <csignal>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@ struct ProgramRun {
   int exit_code = -1;  // 128 + the signal's number if a signal ended it
   std::string out;
   std::string err;
+  int ms_after_signal = 0;  // from signal_trisect()'s signal to the end, in milliseconds
 };
 
 // The program, which lies beside the test.
@@ -28,7 +30,8 @@ ProgramRun run_trisect(const std::vector<std::string>& arguments,
 // The environment under which a program's calls of Vulkan go through a layer of tests/layer.
 std::vector<std::string> layer_environment(const std::string& layer);
 
-// Starts it, sends it SIGINT after so many milliseconds, and waits.
-ProgramRun interrupt_trisect(const std::vector<std::string>& arguments, int after_ms);
+// Starts it, sends it a signal after so many milliseconds, and waits. environment: as above.
+ProgramRun signal_trisect(const std::vector<std::string>& arguments, int after_ms,
+                          int signal = SIGINT, const std::vector<std::string>& environment = {});
 
 }  // namespace trisect::test
