@@ -17,16 +17,16 @@ vulkan=("--accel tiles" "--accel list" "--accel bvh" "--accel bvh --shadows" "--
 opengl=("--backend opengl")
 host=("--backend cpu" "--backend cpu --surface sphere" "--backend cpu --preset thesis" "--backend oracle")
 
-# render PROGRAM FILE MODEL OPTIONS
+# render PROGRAM FILE MODEL OPTIONS [DRIVER]
 render() {
   # shellcheck disable=SC2086  # the options are words
-  "$1" render "assets/$3.obj" --size 128x96 $4 -o "$2" >/dev/null
+  on "${5:-stock}" "$1" render "assets/$3.obj" --size 128x96 $4 -o "$2" >/dev/null
 }
 
 # Whether the files hold the same bits: same FIRST SECOND. Texts of EXR headers may differ, which name the device.
 same() { "$gcc" compare "$1" "$2" --exact >/dev/null; }
 
-pictures=0 apart=0 failed=0
+failed=0
 begin() { pictures=0 apart=0; }
 count() { # WHAT TEST WORD...
   pictures=$((pictures + 1))
@@ -75,16 +75,17 @@ compilers() {
   row "compiled by g++ and by clang++, on the CPU"
 }
 
-# What two programs or drivers that round differently may do.
-drivers() { # OPTION...
+# They may round differently.
+drivers() {
   begin
   for model in "${models[@]}"; do
-    for options in "$@"; do
-      on stock "$gcc" render "assets/$model.obj" --size 128x96 $options -o "$work/1.exr" >/dev/null
-      on newer "$gcc" render "assets/$model.obj" --size 128x96 $options -o "$work/2.exr" >/dev/null
+    for options in "${vulkan[@]}"; do
+      render "$gcc" "$work/1.exr" "$model" "$options" stock
+      render "$gcc" "$work/2.exr" "$model" "$options" newer
       count "$model $options: another driver" same "$work/1.exr" "$work/2.exr"
     done
   done
+  row "${name[stock]} and ${name[newer]}" may
 }
 
 name_drivers
@@ -103,8 +104,7 @@ END
   twice
   threads
   compilers
-  drivers "${vulkan[@]}"
-  row "${name[stock]} and ${name[newer]}" may
+  drivers
 } >"$work/reproducible.md"
 mv "$work/reproducible.md" docs/reproducible.md
 exit $failed

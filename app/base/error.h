@@ -39,12 +39,15 @@ using DeviceLost = gpu::DeviceLost;
 // Also the machine's memory, for libraries that do not throw std::bad_alloc.
 using OutOfMemory = gpu::OutOfMemory;
 
+inline bool is_lack_of_memory(const std::exception& error) {
+  return dynamic_cast<const OutOfMemory*>(&error) != nullptr ||
+         dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+}
+
 // Whether an error is told as it is by whoever makes one of its own of what a library throws.
 inline bool is_told_as_it_is(const std::exception& error) {
   return dynamic_cast<const UsageError*>(&error) != nullptr ||
-         dynamic_cast<const InputError*>(&error) != nullptr ||
-         dynamic_cast<const OutOfMemory*>(&error) != nullptr ||
-         dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+         dynamic_cast<const InputError*>(&error) != nullptr || is_lack_of_memory(error);
 }
 
 inline constexpr const char* kNoMemory = "not enough memory for this model and image size.";

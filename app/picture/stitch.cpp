@@ -279,11 +279,8 @@ bool is_whole_image(const fs::path& path) {
       ExrChannels(whole).read(file);
     }
     return true;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const OutOfMemory&) {
-    throw;
-  } catch (const std::exception&) {
+  } catch (const std::exception& error) {
+    if (is_lack_of_memory(error)) throw;
     return false;
   }
 }

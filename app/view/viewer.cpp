@@ -205,9 +205,11 @@ void Viewer::show() {
   if (!state_.model.is_loaded() || tracer_.is_waiting()) return;
   ++statistics_.frames;
   if (script_.has_started()) return;
-  // However much of the picture is still to come.
-  scheduler_.request_draws(1);
-  if (statistics_.frames < kFramesToStart) return;
+  if (statistics_.frames < kFramesToStart) {
+    // However much of the picture is still to come.
+    scheduler_.request_draws(1);
+    return;
+  }
   script_.start(Clock::now());
   name_model_in_title();
 }

@@ -1,11 +1,10 @@
-// Commands whose calls for files fail, one in each run, by strace: a full disk, a disk that breaks,
-// and no memory. Each is told by one sentence and the right exit code, or did no harm; what was
-// there before is there still, and nothing else.
+// Commands whose calls for files fail, one in each run, by strace: a full disk, and one that
+// breaks. Each is told by one sentence and the right exit code, and every output is whole or what
+// was there before.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "app/base/error.h"
+#include "tests/support/command_in_folder.h"
 #include "tests/support/file_content.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scenes.h"
@@ -23,12 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kBefore = "what was there before";
-
-struct Command {
-  std::vector<std::string> words;    // FOLDER/ at the beginning of one is the run's own folder
-  std::vector<std::string> outputs;  // their names in FOLDER
-};
+using test::CommandInFolder;
 
 struct Run {
   test::ProgramRun program;
@@ -37,20 +32,18 @@ struct Run {
 };
 
 // calls: of the kernel, with commas. inject: what strace is to do with them, or empty.
-Run run(const Command& command, const std::string& calls, const std::string& inject) {
+Run run(const CommandInFolder& command, const std::string& calls, const std::string& inject) {
   const test::TemporaryFolder folder;
   const fs::path out = folder / "out";
   fs::create_directory(out);
-  for (const std::string& name : command.outputs) std::ofstream(out / name) << kBefore;
+  test::prepare_outputs(command, out);
   const fs::path log = folder / "log";
   std::vector<std::string> words{"strace", "-f", "--seccomp-bpf", "-qq", "-o",
                                  log,      "-e", "trace=" + calls};
   if (!inject.empty()) words.insert(words.end(), {"-e", "inject=" + inject});
   words.push_back(test::program_path());
-  for (const std::string& word : command.words) {
-    const std::string prefix = "FOLDER/";
-    words.push_back(word.starts_with(prefix) ? (out / word.substr(prefix.size())).string() : word);
-  }
+  const std::vector<std::string> placed = test::in_folder(command.words, out);
+  words.insert(words.end(), placed.begin(), placed.end());
   Run result;
   // Sanitizers cannot look for leaks in a program that is traced.
   result.program = test::run_program(
@@ -64,10 +57,7 @@ Run run(const Command& command, const std::string& calls, const std::string& inj
       result.calls.push_back(line.substr(line.find_first_not_of(' ', thread.size())));
     }
   }
-  for (const auto& entry : fs::recursive_directory_iterator(out)) {
-    if (!entry.is_regular_file()) continue;
-    result.files[fs::relative(entry.path(), out)] = test::content_of(entry.path());
-  }
+  result.files = test::files_in(out);
   return result;
 }
 
@@ -78,8 +68,8 @@ bool is_whole(const std::string& name, const std::string& content, const Run& go
 }
 
 // Makes each of these calls fail once; adds to runs how many there were.
-void expect_each_told(const Command& command, const std::string& calls, const std::string& error,
-                      int& runs) {
+void expect_each_told(const CommandInFolder& command, const std::string& calls,
+                      const std::string& error, int& runs) {
   const Run good = run(command, calls, "");
   SCOPED_TRACE(fmt::format("{}", fmt::join(command.words, " ")));
   ASSERT_EQ(good.program.exit_code, 0) << good.program.err;
@@ -102,14 +92,15 @@ void expect_each_told(const Command& command, const std::string& calls, const st
     EXPECT_EQ(err.find('\n', told), err.size() - 1);
     EXPECT_EQ(faulty.files.size(), command.outputs.size());
     for (const auto& [name, content] : faulty.files) {
-      EXPECT_TRUE(content == kBefore || is_whole(name, content, good)) << name;
+      EXPECT_TRUE(content == test::kBefore || is_whole(name, content, good)) << name;
     }
   }
 }
 
-std::vector<Command> commands() {
+// parts: for those that read pictures.
+std::vector<CommandInFolder> commands(const test::TwoParts& parts) {
   const std::string cube = test::asset_path("cube");
-  std::vector<Command> all;
+  std::vector<CommandInFolder> all;
   for (const char* name : {"a.png", "a.exr", "a.pfm"}) {
     all.push_back({{"render", cube, "--size", "48x32", "--backend", "cpu", "--stats",
                     "FOLDER/s.json", "-o", std::string("FOLDER/") + name},
@@ -125,52 +116,24 @@ std::vector<Command> commands() {
                    {name, "e.json"}});
   }
   all.push_back({{"info", cube, "--json", "FOLDER/i.json"}, {"i.json"}});
+  all.push_back(parts.stitched());
+  all.push_back(parts.compared());
   return all;
 }
 
-// Pictures in a folder that they lie in as long as it does.
-class Pictures {
- public:
-  Pictures() {
-    for (const char* part : {"0,0,32,16", "0,16,32,16"}) {
-      names_.push_back(folder_ / fmt::format("{}.png", names_.size()));
-      const test::ProgramRun run =
-          test::run_trisect({"render", test::asset_path("cube"), "--size", "32x32", "--tile", part,
-                             "--backend", "cpu", "-o", names_.back()});
-      EXPECT_EQ(run.exit_code, 0) << run.err;
-    }
-  }
-
-  [[nodiscard]] Command stitched() const {
-    return {{"stitch", names_[0], names_[1], "-o", "FOLDER/a.png"}, {"a.png"}};
-  }
-  [[nodiscard]] Command compared() const {
-    return {{"compare", names_[0], names_[0], "--diff", "FOLDER/d.png", "--json", "FOLDER/c.json"},
-            {"d.png", "c.json"}};
-  }
-
- private:
-  test::TemporaryFolder folder_;
-  std::vector<std::string> names_;
-};
-
 TEST(FailingFiles, AreToldWhicheverWriteItIs) {
-  const Pictures pictures;
-  std::vector<Command> all = commands();
-  all.push_back(pictures.stitched());
-  all.push_back(pictures.compared());
+  const test::TwoParts parts(32);
   int runs = 0;
-  for (const Command& command : all) expect_each_told(command, "write,writev", "ENOSPC", runs);
+  for (const CommandInFolder& command : commands(parts)) {
+    expect_each_told(command, "write,writev", "ENOSPC", runs);
+  }
   RecordProperty("runs", runs);
 }
 
 TEST(FailingFiles, AreToldWhicheverNameItIs) {
-  const Pictures pictures;
-  std::vector<Command> all = commands();
-  all.push_back(pictures.stitched());
-  all.push_back(pictures.compared());
+  const test::TwoParts parts(32);
   int runs = 0;
-  for (const Command& command : all) {
+  for (const CommandInFolder& command : commands(parts)) {
     if (!command.outputs.empty()) expect_each_told(command, "rename,linkat", "EIO", runs);
   }
   RecordProperty("runs", runs);

@@ -4,17 +4,16 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "app/base/error.h"
-#include "tests/support/file_content.h"
+#include "tests/support/command_in_folder.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scenes.h"
 #include "tests/support/temporary_folder.h"
@@ -24,26 +23,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kBefore = "what was there before";
+using test::CommandInFolder;
+
 constexpr int kSignals = 100;
 // One second by alarm() (app/cli/interrupt.h), and as much for a busy machine.
 constexpr int kMostMs = 2000;
-
-struct SignalledCommand {
-  std::vector<std::string> words;    // FOLDER/ at the beginning of one is the run's own folder
-  std::vector<std::string> outputs;  // their names in FOLDER
-};
-
-std::vector<std::string> in_folder(const std::vector<std::string>& words, const fs::path& folder) {
-  const std::string prefix = "FOLDER/";
-  std::vector<std::string> placed;
-  placed.reserve(words.size());
-  for (const std::string& word : words) {
-    placed.push_back(word.starts_with(prefix) ? (folder / word.substr(prefix.size())).string()
-                                              : word);
-  }
-  return placed;
-}
 
 bool is_whole_output(const fs::path& file, const std::string& content) {
   if (file.extension() == ".json") return nlohmann::json::accept(content);
@@ -52,7 +36,7 @@ bool is_whole_output(const fs::path& file, const std::string& content) {
 }
 
 // Returns how often it was interrupted; what ends in a few milliseconds hardly ever is.
-int expect_told_or_done(const SignalledCommand& command) {
+int expect_told_or_done(const CommandInFolder& command) {
   SCOPED_TRACE(fmt::format("{}", fmt::join(command.words, " ")));
   const test::TemporaryFolder cache;
   const std::vector<std::string> environment{"XDG_CACHE_HOME=" + cache.path().string()};
@@ -60,26 +44,23 @@ int expect_told_or_done(const SignalledCommand& command) {
   int whole_ms = 0;
   for (int i = 0; i < 2; ++i) {
     const test::TemporaryFolder folder;
-    const auto begin = std::chrono::steady_clock::now();
     const test::ProgramRun run =
-        test::run_trisect(in_folder(command.words, folder.path()), environment);
+        test::run_trisect(test::in_folder(command.words, folder.path()), environment);
     EXPECT_LE(run.exit_code, exit_different) << run.err;
-    whole_ms = static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(
-                                    std::chrono::steady_clock::now() - begin)
-                                    .count());
+    whole_ms = run.ms;
   }
   constexpr std::array<int, 4> numbers{SIGTERM, SIGINT, SIGHUP, SIGQUIT};
   int told = 0;
   int longest_ms = 0;
   for (int i = 0; i < kSignals; ++i) {
     const test::TemporaryFolder folder;
-    for (const std::string& name : command.outputs) std::ofstream(folder / name) << kBefore;
+    test::prepare_outputs(command, folder.path());
     const int number = numbers.at(static_cast<std::size_t>(i) % numbers.size());
     const int after_ms = whole_ms * i / kSignals;
-    const test::ProgramRun run = test::signal_trisect(in_folder(command.words, folder.path()),
+    const test::ProgramRun run = test::signal_trisect(test::in_folder(command.words, folder.path()),
                                                       after_ms, number, environment);
     SCOPED_TRACE(fmt::format("signal {} after {} of {} ms: exit code {} after {} ms, '{}'", number,
-                             after_ms, whole_ms, run.exit_code, run.ms_after_signal, run.err));
+                             after_ms, whole_ms, run.exit_code, run.ms, run.err));
     if (run.exit_code == 128 + number && run.err.empty()) {
       // Libraries are still being loaded: main() has not begun.
       EXPECT_LT(after_ms, 500);
@@ -89,16 +70,13 @@ int expect_told_or_done(const SignalledCommand& command) {
     } else {
       EXPECT_LE(run.exit_code, exit_different);
     }
-    EXPECT_LT(run.ms_after_signal, kMostMs);
-    longest_ms = std::max(longest_ms, run.ms_after_signal);
-    std::size_t files = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(folder.path())) {
-      if (!entry.is_regular_file()) continue;
-      ++files;
-      const std::string content = test::content_of(entry.path());
-      EXPECT_TRUE(content == kBefore || is_whole_output(entry.path(), content)) << entry.path();
+    EXPECT_LT(run.ms, kMostMs);
+    longest_ms = std::max(longest_ms, run.ms);
+    const std::map<std::string, std::string> files = test::files_in(folder.path());
+    EXPECT_EQ(files.size(), command.outputs.size());
+    for (const auto& [name, content] : files) {
+      EXPECT_TRUE(content == test::kBefore || is_whole_output(name, content)) << name;
     }
-    EXPECT_EQ(files, command.outputs.size());
   }
   std::cout << fmt::format("{}: {} of {} interrupted, after {} ms at most; {} ms without\n",
                            command.words.front(), told, kSignals, longest_ms, whole_ms)
@@ -109,16 +87,9 @@ int expect_told_or_done(const SignalledCommand& command) {
 TEST(Signals, EndEveryCommandInOrder) {
   const std::string cube = test::asset_path("cube");
   const std::string teapot = test::asset_path("teapot");
-  const test::TemporaryFolder pictures;
-  std::vector<std::string> parts;
-  for (const char* part : {"0,0,1600,600", "0,600,1600,600"}) {
-    parts.push_back(pictures / fmt::format("{}.png", parts.size()));
-    const test::ProgramRun run = test::run_trisect({"render", cube, "--size", "1600x1200", "--tile",
-                                                    part, "--backend", "cpu", "-o", parts.back()});
-    ASSERT_EQ(run.exit_code, 0) << run.err;
-  }
+  const test::TwoParts parts(1400);
   int told = 0;
-  for (const SignalledCommand& command : std::vector<SignalledCommand>{
+  for (const CommandInFolder& command : std::vector<CommandInFolder>{
            {{"render", teapot, "--size", "320x240", "--stats", "FOLDER/s.json", "-o",
              "FOLDER/a.png"},
             {"s.json", "a.png"}},
@@ -133,9 +104,8 @@ TEST(Signals, EndEveryCommandInOrder) {
            {{"export", teapot, "--error", "0.01", "-o", "FOLDER/a.glb", "--json", "FOLDER/e.json"},
             {"a.glb", "e.json"}},
            {{"info", teapot, "--json", "FOLDER/i.json"}, {"i.json"}},
-           {{"stitch", parts[0], parts[1], "-o", "FOLDER/a.png"}, {"a.png"}},
-           {{"compare", parts[0], parts[0], "--diff", "FOLDER/d.png", "--json", "FOLDER/c.json"},
-            {"d.png", "c.json"}},
+           parts.stitched(),
+           parts.compared(),
            {{"devices", "--json", "FOLDER/d.json"}, {"d.json"}},
            {{"crosscheck", cube, "--size", "32x24", "--json", "FOLDER/c.json"}, {"c.json"}},
            {{"accuracy", cube, "--size", "32x24", "--json", "FOLDER/a.json"}, {"a.json"}},

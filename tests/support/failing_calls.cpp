@@ -12,6 +12,7 @@
 #include <thread>
 #include <utility>
 
+#include "tests/support/command_in_folder.h"
 #include "tests/support/file_content.h"
 #include "tests/support/temporary_folder.h"
 
@@ -71,11 +72,6 @@ FaultyRun FailingCommand::run_with(const std::string& variable) const {
   std::ofstream(settings) << "khronos_validation.debug_action = VK_DBG_LAYER_ACTION_LOG_MSG\n"
                           << "khronos_validation.report_flags = error,warn\n"
                           << "khronos_validation.log_filename = " << log.string() << "\n";
-  std::vector<std::string> arguments = arguments_;
-  for (std::string& argument : arguments) {
-    const std::string prefix = "FOLDER/";
-    if (argument.rfind(prefix, 0) == 0) argument = out / argument.substr(prefix.size());
-  }
   std::vector<std::string> environment = layer_environment("fault");
   environment.back() += ":VK_LAYER_KHRONOS_validation";
   environment.insert(
@@ -89,7 +85,7 @@ FaultyRun FailingCommand::run_with(const std::string& variable) const {
   environment.insert(environment.end(), environment_.begin(), environment_.end());
   environment.push_back(variable);
   FaultyRun result;
-  result.program = run_trisect(arguments, environment, kSecondsAtMost);
+  result.program = run_trisect(in_folder(arguments_, out), environment, kSecondsAtMost);
   for (const auto& entry : std::filesystem::directory_iterator(out)) {
     result.files.push_back(entry.path().filename());
   }

@@ -81,8 +81,7 @@ ProgramRun run(std::vector<std::string> words, const std::vector<std::string>& e
   posix_spawnattr_init(&attributes);
   sigset_t signals;
   sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) sigaddset(&signals, number);
   posix_spawnattr_setsigdefault(&attributes, &signals);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
   pid_t child = 0;
@@ -95,7 +94,7 @@ ProgramRun run(std::vector<std::string> words, const std::vector<std::string>& e
     std::this_thread::sleep_for(std::chrono::milliseconds(signal.ms));
     kill(child, signal.number);
   }
-  const auto signalled = std::chrono::steady_clock::now();
+  const auto begin = std::chrono::steady_clock::now();
   int status = 0;
   if (seconds_at_most > 0) {
     wait_for(child, status, seconds_at_most);
@@ -103,9 +102,9 @@ ProgramRun run(std::vector<std::string> words, const std::vector<std::string>& e
     waitpid(child, &status, 0);
   }
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  const auto after = std::chrono::steady_clock::now() - signalled;
+  const auto taken = std::chrono::steady_clock::now() - begin;
   return {code, content_of(out), content_of(err),
-          static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(after).count())};
+          static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(taken).count())};
 }
 
 std::vector<std::string> trisect_with(std::vector<std::string> arguments) {

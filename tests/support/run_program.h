@@ -11,7 +11,7 @@ struct ProgramRun {
   int exit_code = -1;  // 128 + the signal's number if a signal ended it
   std::string out;
   std::string err;
-  int ms_after_signal = 0;  // from signal_trisect()'s signal to the end, in milliseconds
+  int ms = 0;  // to the end, from signal_trisect()'s signal or else from the start, in milliseconds
 };
 
 // The program, which lies beside the test.
