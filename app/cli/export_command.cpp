@@ -11,6 +11,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/json_text.h"
+#include "app/cli/named.h"
 #include "app/cli/output.h"
 #include "app/cli/progress_line.h"
 #include "app/mesh/mesh_builder.h"
@@ -59,7 +60,9 @@ int export_mesh(const ExportOptions& options) {
   }();
   say("{}: {}\n", options.model, describe(built.report));
   stop_if_interrupted();
-  const BakedScene scene = bake(built.mesh, {options.surface, options.alpha, SHELL_NORMAL});
+  const BakedScene scene = named(options.model, [&] {
+    return bake(built.mesh, {options.surface, options.alpha, SHELL_NORMAL});
+  });
   const FlatMesh flat =
       flattened(options, built.mesh, scene, file_rounding(built.mesh, scene, *format));
   const std::size_t open_edges = count_open_edges(flat);

@@ -42,8 +42,8 @@ LoadedScene load_scene(const RenderOptions& options);
 // it.
 BakedScene bake_showing_progress(const Mesh& mesh, const SurfaceChoice& choice);
 
-// build_mesh() of every file, for a command that measures for long: what cannot be read is found
-// before. Throws InputError.
+// Reads and bakes every file, for a command that measures for long: what cannot be read, or is too
+// large or too small, is found before. Throws InputError.
 void expect_readable(const std::vector<std::string>& models);
 
 // trace_scene() with a progress line on the terminal. Throws Interrupted if the user stops it.
