@@ -70,8 +70,12 @@ bool same_root(const PatchFindings::Root& a, const PatchFindings::Root& b, const
   return glm::distance(a.weights, b.weights) < (same_side ? 1e-6 : 1e-9);
 }
 
+// A root beside the patch is none, but the surface comes near the line there.
 void record(const PatchFindings::Root& root, const Line& line, PatchFindings& findings) {
-  if (least(root.weights) < -kOutside) return;
+  if (least(root.weights) < -kOutside) {
+    findings.doubt_t = std::min(findings.doubt_t, root.t);
+    return;
+  }
   for (const PatchFindings::Root& known : findings.roots) {
     if (same_root(known, root, line.direction)) return;
   }

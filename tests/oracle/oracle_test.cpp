@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <random>
@@ -53,6 +54,45 @@ double meet_triangle(const OracleRay& ray, const dvec3& a, const dvec3& b, const
   clear = std::min({std::abs(u), std::abs(v), std::abs(1.0 - u - v)}) > edge;
   const bool inside = u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t >= 0.0;
   return inside ? t : std::numeric_limits<double>::quiet_NaN();
+}
+
+// Rays that pass a triangle's border, or a curved patch's, by less than the motion, inside or
+// outside, are undecidable, whatever is hit behind it; those that pass by more are not.
+TEST(Oracle, DoubtsWhatPassesABorderByLessThanTheMotion) {
+  constexpr double motion = 1e-7;
+  const dvec3 up(0.0, 0.0, 1.0);
+  const dvec3 behind(0.0, 0.0, -2.0);
+  const std::array<dvec3, 3> corners{dvec3(-1, -1, 0), dvec3(1, -1, 0), dvec3(0, 1, 0)};
+  for (const uint surface : {SURFACE_FLAT, SURFACE_PHONG, SURFACE_SPHERE}) {
+    // All normals alike, so that borders are straight. The second triangle is larger.
+    BakedScene scene;
+    scene.choice = {surface, 0.65, SHELL_NORMAL};
+    for (const double size : {1.0, 3.0}) {
+      std::array<dvec3, 3> positions{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        positions[k] = size * corners[k] + (size > 1.0 ? behind : dvec3(0.0));
+      }
+      scene.triangles.push_back(bake_triangle(positions, {up, up, up}, scene.choice));
+    }
+    const Oracle oracle(scene);
+    // At right angles to each edge, by so much beyond it.
+    for (std::size_t k = 0; k < 3; ++k) {
+      const dvec3 edge = glm::normalize(corners[(k + 1) % 3] - corners[k]);
+      const dvec3 outward(edge.y, -edge.x, 0.0);
+      const dvec3 on_edge = glm::mix(corners[k], corners[(k + 1) % 3], 0.3);
+      for (const double beyond : {0.0, 1e-9, 1e-8, 3e-8, 8e-8, 2e-7, 9e-7, 2e-6, 1e-4}) {
+        for (const double sign : {-1.0, 1.0}) {
+          const OracleRay ray{on_edge + outward * (sign * beyond) + up * 3.0, -up};
+          const OracleAnswer answer = oracle.first(ray, motion);
+          EXPECT_TRUE(answer.hit);
+          EXPECT_EQ(answer.decidable, beyond > motion) << surface << k << ", " << sign * beyond;
+          if (beyond > motion) {
+            EXPECT_EQ(answer.root.triangle, sign > 0.0 ? 1U : 0U);
+          }
+        }
+      }
+    }
+  }
 }
 
 // 0.65 is not a number of single precision: the surfaces of the two alphas are 1e-8 apart.
