@@ -61,7 +61,8 @@ class Oracle {
 
   // The first root. It is undecidable if the answer changes when the ray is moved sideways by
   // `motion`, a distance, in four directions, or its ends are moved along it by as much: from hit
-  // to miss, or to a t that is farther off than the slant of the surface explains. A ray that meets
+  // to miss, or to a t that is farther off than the slant of the surface explains; or if a vertex
+  // lies so near the ray before the answer. A ray that meets
   // a patch squarely, away from its border, with no surface in doubt before the hit, is decidable
   // without being moved.
   [[nodiscard]] OracleAnswer first(const OracleRay& ray, double motion) const;

@@ -216,6 +216,19 @@ void PatchSearch::roots(const Line& line, double t_min, double t_max,
   visit(nodes_[0], 0, 0, {line, t_min, t_max, kResidual * scale}, findings);
 }
 
+double PatchSearch::first_vertex(const Line& line, double t_min, double t_max,
+                                 double distance) const {
+  double first = kInfinity;
+  if (!defined_) return first;
+  for (const dvec3& p : patch_.P) {
+    const dvec3 x = p - line.origin;
+    const double t = glm::dot(x, line.direction);
+    const bool is_near = glm::length(x - line.direction * t) <= distance;
+    if (is_near && t >= t_min && t <= t_max) first = std::min(first, t);
+  }
+  return first;
+}
+
 // The least t at which the enclosed surface may meet the line. Nothing if it does not, or if it
 // only may come within the margin of the line, which goes into findings.doubt_t.
 std::optional<double> PatchSearch::meet(const Enclosure& enclosure, const Query& query,

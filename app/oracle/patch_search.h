@@ -60,6 +60,11 @@ class PatchSearch {
   // lie beyond. Safe to call from several threads at a time, each with findings of its own.
   void roots(const Line& line, double t_min, double t_max, PatchFindings& findings) const;
 
+  // The least t between these at which a vertex, which is a point of the surface, is this near the
+  // line; infinite if none is.
+  [[nodiscard]] double first_vertex(const Line& line, double t_min, double t_max,
+                                    double distance) const;
+
   [[nodiscard]] double longest_edge() const { return patch_.longest; }
 
  private:

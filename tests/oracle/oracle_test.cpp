@@ -95,6 +95,32 @@ TEST(Oracle, DoubtsWhatPassesABorderByLessThanTheMotion) {
   }
 }
 
+// The same for rays around the tip of a needle, to which hardly any direction leads.
+TEST(Oracle, DoubtsWhatPassesASharpCornerByLessThanTheMotion) {
+  constexpr double motion = 1e-7;
+  const dvec3 up(0.0, 0.0, 1.0);
+  for (const uint surface : {SURFACE_FLAT, SURFACE_PHONG, SURFACE_SPHERE}) {
+    BakedScene scene;
+    scene.choice = {surface, 0.65, SHELL_NORMAL};
+    // 3 degrees about a direction that is none of the oracle's.
+    scene.triangles.push_back(bake_triangle(
+        {dvec3(0.0), dvec3(1.0, 0.60, 0.0), dvec3(1.0, 0.67, 0.0)}, {up, up, up}, scene.choice));
+    const Oracle oracle(scene);
+    for (int k = 0; k < 16; ++k) {
+      const double angle = k * 0.39269908169872414;
+      const dvec3 around(std::cos(angle), std::sin(angle), 0.0);
+      for (const double beyond : {1e-9, 1e-8, 9e-8}) {
+        const OracleAnswer answer = oracle.first({around * beyond + up, -up}, motion);
+        EXPECT_FALSE(answer.decidable) << surface << ", " << k << ", " << beyond;
+      }
+      // Away from the needle.
+      if (around.x > 0.0) continue;
+      const OracleAnswer answer = oracle.first({around * 3e-7 + up, -up}, motion);
+      EXPECT_TRUE(answer.decidable && !answer.hit) << surface << ", " << k;
+    }
+  }
+}
+
 // 0.65 is not a number of single precision: the surfaces of the two alphas are 1e-8 apart.
 TEST(Oracle, TakesAlphaAsTheKernelsDo) {
   std::mt19937_64 random(3);
