@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
 
 #include "app/base/error.h"
 #include "tests/support/scenes.h"
@@ -74,7 +74,8 @@ TEST(Bake, IsOfTheRoundedVertices) {
           return std::array{dvec3(v[0]), dvec3(v[1]), dvec3(v[2])};
         };
         const Triangle again = bake_triangle(stored(tri.Position), stored(tri.Normal), choice);
-        EXPECT_EQ(std::memcmp(&tri, &again, sizeof tri), 0) << name;
+        using Numbers = std::array<float, sizeof(Triangle) / sizeof(float)>;
+        EXPECT_EQ(std::bit_cast<Numbers>(tri), std::bit_cast<Numbers>(again)) << name;
       }
     }
   }

@@ -1,6 +1,7 @@
 // Rays have the same hits however often they pause.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <random>
@@ -67,6 +68,35 @@ TEST_F(Queue, RaysThatGoByATreeMeetTheSame) {
           << i << " in passes of " << steps;
     }
   }
+}
+
+// The farther a ray's anchor, the more its points are off by roundings, and most where it meets a
+// box at a small angle. Those of a cube's faces are thinner than that.
+TEST_F(Queue, RaysThatGoByATreeMeetTheSameFarFromTheirAnchors) {
+  const Mesh mesh = test::load_asset("cube");
+  BakedScene scene = bake_with_subpatches(mesh, {SURFACE_FLAT, 0.0});
+  TraceSettings settings = test::framed(mesh, scene, 8, 8, 10);
+  settings.solver = SOLVER_ROBUST;
+  std::mt19937_64 random(7);
+  std::vector<CastRay> rays;
+  for (int i = 0; i < 500; ++i) {
+    const stress::SurfacePoint point = stress::any_point(scene, random);
+    const glm::dvec3 direction = stress::across(point.normal, random) -
+                                 std::ldexp(1.0, -static_cast<int>(random() % 12)) * point.normal;
+    CastRay ray = stress::ray_exactly_through(scene, point.position, direction);
+    ray.anchor -= ray.direction * static_cast<float>(scene.radius * 128.0);
+    ray.anchor.w = 0.0F;
+    rays.push_back(ray);
+  }
+  const std::vector<CastHit> expected = cast(scene, settings, rays, RayQueue::kSteps);
+  scene.bvh = build_bvh(scene);
+  const std::vector<CastHit> hits = cast(scene, settings, rays, RayQueue::kSteps);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    count += hits[i].triangle != NO_TRIANGLE ? 1 : 0;
+    EXPECT_EQ(std::memcmp(&hits[i], &expected[i], offsetof(CastHit, evaluations)), 0) << i;
+  }
+  EXPECT_GT(count, 300U);
 }
 
 TEST_F(Queue, TheBisectionSeesEveryTriangleOnceInSeveralPasses) {
