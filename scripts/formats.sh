@@ -36,6 +36,36 @@ no quantised positions.
 Reading 450,000 triangles and making a mesh of them takes 5.9 times the file's size of memory in binary PLY, 5.4 in binary STL
 and 5.2 in GLB: the test ModelFile.ReadsInSixTimesItsSize prints it and holds it to 6.
 
+## Rays and hits
+
+\`trisect rays\` writes lists of rays, \`trisect cast\` and \`trisect judge\` read them; \`cast\` writes lists of hits and \`judge\` reads
+them, one hit for each ray, in their order. A name that ends in .csv is text, any other binary: records of little-endian numbers,
+without a header.
+
+| bytes of a ray | single precision | bytes of a hit | |
+|---|---|---|---|
+| 0 to 11 | origin: x, y, z | 0 to 3 | t, single precision |
+| 12 to 15 | t_min | 4 to 11 | u, v, single precision |
+| 16 to 27 | direction: x, y, z | 12 to 15 | triangle, an unsigned whole number |
+| 28 to 31 | t_max | | |
+
+A text has a line for each, \`ox,oy,oz,t_min,dx,dy,dz,t_max\` or \`t,u,v,triangle\`; a line with these names may come first. Numbers
+may have the digits of double precision.
+
+Coordinates are those of the model, whose positions are rounded to single precision, as other programs have them. A ray is origin + t
+direction for t_min <= t <= t_max; t_max may be infinite, the direction has any length, and t counts in it. u and v are the weights
+of the triangle's second and third vertex; they may be left out (NaN, in a text nothing). Triangles are counted from 0 on, in the
+order in which \`trisect export MODEL --surface flat --subdivide 1\` writes them: the model's own, where it has triangles only. No
+hit is 4294967295, in a text -1; a hit on a triangle that is not told is 4294967294, in a text nothing. In Python:
+
+\`\`\`python
+import numpy
+rays = numpy.fromfile("a.rays", "<f4").reshape(-1, 8)
+hits = numpy.fromfile("a.hits", [("t", "<f4"), ("u", "<f4"), ("v", "<f4"), ("triangle", "<u4")])
+\`\`\`
+
+## The test models
+
 ![All of them](formats.jpg)
 
 |  | file | triangles | what trisect says |

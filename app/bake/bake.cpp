@@ -106,16 +106,34 @@ std::size_t device_bytes(const BakedScene& scene) {
          scene.subpatches.size() * sizeof(SubpatchBounds) + scene.bvh.size() * sizeof(BvhNode);
 }
 
+namespace {
+
+struct Bounds {
+  dvec3 low{std::numeric_limits<double>::infinity()};
+  dvec3 high{-std::numeric_limits<double>::infinity()};
+};
+
+Bounds bounds_of(const std::vector<dvec3>& positions) {
+  Bounds bounds;
+  for (const dvec3& p : positions) {
+    bounds.low = glm::min(bounds.low, p);
+    bounds.high = glm::max(bounds.high, p);
+  }
+  return bounds;
+}
+
+}  // namespace
+
 BakedScene bake(const Mesh& mesh, const SurfaceChoice& choice) {
+  const auto [low, high] = bounds_of(mesh.positions);
+  return bake_about(mesh, choice, low + (high - low) * 0.5);
+}
+
+BakedScene bake_about(const Mesh& mesh, const SurfaceChoice& choice, const dvec3& origin) {
   BakedScene scene;
   scene.choice = choice;
-  dvec3 low(std::numeric_limits<double>::infinity());
-  dvec3 high = -low;
-  for (const dvec3& p : mesh.positions) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  scene.origin = low + (high - low) * 0.5;
+  scene.origin = origin;
+  const auto [low, high] = bounds_of(mesh.positions);
   // The kernels compute fourth powers of lengths in single precision, with a range of 1e-38 to
   // 1e38.
   constexpr double smallest = 1e-9;
@@ -125,6 +143,12 @@ BakedScene bake(const Mesh& mesh, const SurfaceChoice& choice) {
     throw InputError(fmt::format(
         "the model spans {:g} units; single precision needs it between {:g} and {:g}: scale it.",
         2.0 * scene.extent, smallest, largest));
+  }
+  const double farthest = glm::length(glm::max(glm::abs(low - origin), glm::abs(high - origin)));
+  if (!(farthest <= largest)) {
+    throw InputError(
+        fmt::format("the model reaches {:g} units from the origin, farther than {:g}: move it.",
+                    farthest, largest));
   }
   // At least: a patch may be several subpatches, and there may be a tree.
   expect_memory(static_cast<double>(mesh.triangles.size()) *

@@ -35,6 +35,11 @@ std::size_t count_without_surface(const BakedScene& scene);
 // or if no triangle has a surface.
 BakedScene bake(const Mesh& mesh, const SurfaceChoice& choice);
 
+// The same about an origin of the caller's in place of the middle of the mesh's bounding box: for
+// rays that are given in the model's own coordinates. The mesh reaches 1e9 units from there at
+// most.
+BakedScene bake_about(const Mesh& mesh, const SurfaceChoice& choice, const glm::dvec3& origin);
+
 // One triangle, from positions relative to the scene's origin and unit normals. Pure. Everything
 // but the first two members follows from the positions and normals as rounded to single precision,
 // so that it fits what the kernels see. For positions of up to 1e9 and any finite alpha of up to

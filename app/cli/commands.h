@@ -34,6 +34,16 @@ int info(const InfoOptions& options);
 // the error asked for.
 int export_mesh(const ExportOptions& options);
 
+// Writes rays on which ray tracers fail.
+int write_rays(const RaysOptions& options);
+
+// Writes what rays of a file hit first.
+int cast_rays(const CastOptions& options);
+
+// Judges the hits that any program found for rays of a file, and prints the figures. Returns
+// exit_different if one is wrong.
+int judge_hits(const JudgeOptions& options);
+
 // Lists the Vulkan devices, or the one asked for, and on request what their arithmetic does.
 // Returns exit_no_device if none can be used.
 int list_devices(const DevicesOptions& options);

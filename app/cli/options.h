@@ -113,6 +113,39 @@ struct HardcasesOptions {
   std::string device;
 };
 
+// A model whose numbers are taken in single precision, as other programs hold them.
+struct SingleModel {
+  std::string file;
+  MeshOptions mesh;
+  uint surface = SURFACE_PHONG;
+  uint shell = SHELL_NORMAL;
+  double alpha = 0.65;
+};
+
+struct RaysOptions {
+  SingleModel model;
+  std::string output;
+  std::string kind = "all";
+  uint32_t count = 1000;  // of each kind
+  uint32_t seed = 1;
+};
+
+struct CastOptions {
+  std::string rays;
+  SingleModel model;
+  std::string output;
+  Backend backend = Backend::vulkan;
+  std::string device;
+};
+
+struct JudgeOptions {
+  std::string rays;
+  std::string hits;
+  SingleModel model;
+  std::string json;
+  std::string wrong;
+};
+
 struct CrosscheckOptions {
   RenderOptions render;  // output, backend, runs and stats are not used
   std::vector<Backend> backends{Backend::vulkan, Backend::opengl};

@@ -21,6 +21,7 @@
 #include "app/cli/scene_options.h"
 #include "app/cli/standard_output.h"
 #include "app/cli/suggestions.h"
+#include "app/judge/hard_rays.h"
 #include "app/program/help_format.h"
 #include "app/view/command_line.h"
 
@@ -300,6 +301,106 @@ Command add_export(CLI::App& app) {
           }};
 }
 
+// Adds MODEL and what its surface is to a command that exchanges rays.
+void add_single_model(CLI::App& command, SingleModel& model) {
+  add_model(command, model.file);
+  add_mesh_options(command, model.mesh);
+  command
+      .add_option_function<std::string>(
+          "--surface", [&model](const std::string& name) { model.surface = surface_of(name); },
+          "How triangles are curved: flat, phong or sphere, default phong")
+      ->group(option_group::kSurface)
+      ->check(one_of({"flat", "phong", "sphere"}))
+      ->type_name("NAME");
+  command
+      .add_option_function<std::string>(
+          "--shell", [&model](const std::string& name) { model.shell = shell_of(name); },
+          "Along what triangles are displaced: normal or height, default normal")
+      ->group(option_group::kSurface)
+      ->check(one_of({"normal", "height"}))
+      ->type_name("NAME");
+  add_alpha(command, model.alpha);
+}
+
+void add_file(CLI::App& command, const std::string& name, std::string& file,
+              const std::string& what) {
+  command.add_option(name, file, what)
+      ->group(option_group::kInput)
+      ->required()
+      ->check(not_empty())
+      ->check(suggest_files({}));
+}
+
+void add_output(CLI::App& command, std::string& output, const std::string& what) {
+  command.add_option("-o,--output", output, what)
+      ->group(option_group::kOutput)
+      ->required()
+      ->check(not_empty())
+      ->check(suggest_files({}))
+      ->type_name("FILE");
+}
+
+Command add_rays(CLI::App& app) {
+  const auto [command, options] = add_command<RaysOptions>(
+      app, "rays", "Write rays on which ray tracers fail, for any program to cast");
+  add_single_model(command, options->model);
+  add_output(command, options->output, "File of rays to write: .csv is text, any other binary");
+  std::vector<std::string> kinds{"all"};
+  std::string list;
+  for (const RayKind& kind : kRayKinds) {
+    kinds.emplace_back(kind.name);
+    list += fmt::format("{} ({}), ", kind.name, kind.what);
+  }
+  command.add_option("--kind", options->kind, list + "or all, each in turn, default all")
+      ->group(option_group::kMeasuring)
+      ->check(one_of(kinds))
+      ->type_name("NAME");
+  command.add_option("--count", options->count, "Rays of each kind, default 1000")
+      ->group(option_group::kMeasuring)
+      ->check(number_from_to(1, 100000000))
+      ->type_name("N");
+  command.add_option("--seed", options->seed, "Other rays of the same kind, default 1")
+      ->group(option_group::kMeasuring)
+      ->check(number_from_to(0, 2000000000))
+      ->type_name("N");
+  return {&command, [options = options] { return write_rays(*options); }};
+}
+
+Command add_cast(CLI::App& app) {
+  const auto [command, options] =
+      add_command<CastOptions>(app, "cast", "Write what the rays of a file hit first");
+  add_file(command, "RAYS", options->rays, "File of rays");
+  add_single_model(command, options->model);
+  add_output(command, options->output, "File of hits to write: .csv is text, any other binary");
+  command
+      .add_option_function<std::string>(
+          "--backend",
+          [options = options](const std::string& name) {
+            options->backend = backend_named("--backend", name);
+          },
+          "Who casts: vulkan, cpu or oracle, default vulkan")
+      ->group(option_group::kTracing)
+      ->check(one_of({"vulkan", "cpu", "oracle"}))
+      ->type_name("NAME");
+  add_device(command, options->device);
+  return {&command, [options = options] { return cast_rays(*options); }};
+}
+
+Command add_judge(CLI::App& app) {
+  const auto [command, options] = add_command<JudgeOptions>(
+      app, "judge", "Judge the hits that any program found for the rays of a file");
+  add_file(command, "RAYS", options->rays, "File of rays");
+  add_file(command, "HITS", options->hits, "File of hits, one for each ray");
+  add_single_model(command, options->model);
+  add_json(command, options->json, "Write the figures as JSON");
+  command.add_option("--wrong", options->wrong, "Write the rays with a wrong answer as CSV")
+      ->group(option_group::kOutput)
+      ->check(not_empty())
+      ->check(suggest_files({".csv"}))
+      ->type_name("FILE");
+  return {&command, [options = options] { return judge_hits(*options); }};
+}
+
 Command add_devices(CLI::App& app) {
   const auto [command, options] = add_command<DevicesOptions>(
       app, "devices", "List the Vulkan devices, and what those that cannot be used lack");
@@ -332,17 +433,13 @@ CommandLine::CommandLine()
   // Commands inherit both. They are in the order in which help lists them.
   app_.formatter(std::make_shared<HelpFormat>());
   app_.set_help_flag("-h,--help", "Print this help and exit")->group(option_group::kHelp);
-  commands_ = {add_render(app_),
-               add_other<view::CommandLine>(app_, "view"),
-               add_stitch(app_),
-               add_info(app_),
-               add_export(app_),
-               add_devices(app_),
-               add_compare(app_),
-               add_crosscheck(app_),
-               add_accuracy(app_),
-               add_hardcases(app_),
-               add_other<bench::CommandLine>(app_, "bench")};
+  commands_ = {add_render(app_),   add_other<view::CommandLine>(app_, "view"),
+               add_stitch(app_),   add_info(app_),
+               add_export(app_),   add_devices(app_),
+               add_compare(app_),  add_crosscheck(app_),
+               add_accuracy(app_), add_hardcases(app_),
+               add_rays(app_),     add_cast(app_),
+               add_judge(app_),    add_other<bench::CommandLine>(app_, "bench")};
   for (CLI::App* command : app_.get_subcommands({})) {
     if (command->get_name() != "view") add_quiet(*command);
   }

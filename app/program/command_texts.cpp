@@ -98,6 +98,26 @@ const std::map<std::string, CommandTexts>& texts() {
          "roots. The exit code is 1 if the robust solver breaks its promise in one of them."},
         {{"On the fastest device", "trisect hardcases"},
          {"On the CPU, as JSON", "trisect hardcases --backend cpu --json hardcases.json"}}}},
+      {"trisect rays",
+       {{"The model's numbers are taken in single precision, as other programs hold them, and the "
+         "rays are in its coordinates. docs/formats.md describes the files."},
+        {{"A thousand of each kind", "trisect rays teapot.obj -o teapot.rays"},
+         {"Ten thousand at edges of the flat triangles, as text",
+          "trisect rays torus.obj --surface flat --kind edge --count 10000 -o edges.csv"}}}},
+      {"trisect cast",
+       {{"By the robust solver, or by the oracle, an independent search in double precision for "
+         "all roots."},
+        {{"On the fastest device", "trisect cast teapot.rays teapot.obj -o teapot.hits"},
+         {"By the oracle",
+          "trisect cast edges.csv torus.obj --surface flat --backend oracle -o "
+          "edges.hits.csv"}}}},
+      {"trisect judge",
+       {{"Every hit is compared with the oracle's, an independent search in double precision for "
+         "all roots: of flat triangles or of curved ones. Rays whose answer the last digits of "
+         "single precision decide are set apart. The exit code is 1 if a hit is wrong."},
+        {{"The program's own hits", "trisect judge teapot.rays teapot.hits teapot.obj"},
+         {"Those of a ray tracer of flat triangles, with a list of the wrong ones",
+          "trisect judge edges.csv edges.hits.csv torus.obj --surface flat --wrong wrong.csv"}}}},
       {"trisect bench",
        {{"All contenders take turns, so that a machine that becomes slower meanwhile is as slow "
          "for each of them."},
@@ -136,7 +156,7 @@ CommandTexts command_texts(const std::string& path) {
 std::vector<Term> exit_codes() {
   const auto code = [](ExitCode number) { return std::to_string(number); };
   return {{code(exit_done), "done"},
-          {code(exit_different), "farther apart than promised or asked for"},
+          {code(exit_different), "farther apart than promised or asked for, or a wrong hit"},
           {code(exit_usage), "usage: no such command or option, or a value that it cannot have"},
           {code(exit_bad_input), "a file that cannot be read or written, or holds nonsense"},
           {code(exit_no_device), "no usable device"},

@@ -97,8 +97,8 @@ void expect_each_told(const CommandInFolder& command, const std::string& calls,
   }
 }
 
-// parts: for those that read pictures.
-std::vector<CommandInFolder> commands(const test::TwoParts& parts) {
+// For those that read pictures and lists of rays.
+std::vector<CommandInFolder> commands(const test::TwoParts& parts, const test::RayLists& lists) {
   const std::string cube = test::asset_path("cube");
   std::vector<CommandInFolder> all;
   for (const char* name : {"a.png", "a.exr", "a.pfm"}) {
@@ -118,13 +118,17 @@ std::vector<CommandInFolder> commands(const test::TwoParts& parts) {
   all.push_back({{"info", cube, "--json", "FOLDER/i.json"}, {"i.json"}});
   all.push_back(parts.stitched());
   all.push_back(parts.compared());
+  all.push_back({{"rays", cube, "--count", "100", "-o", "FOLDER/a.rays"}, {"a.rays"}});
+  all.push_back(lists.cast());
+  all.push_back(lists.judged());
   return all;
 }
 
 TEST(FailingFiles, AreToldWhicheverWriteItIs) {
   const test::TwoParts parts(32);
+  const test::RayLists lists("cube", 4);
   int runs = 0;
-  for (const CommandInFolder& command : commands(parts)) {
+  for (const CommandInFolder& command : commands(parts, lists)) {
     expect_each_told(command, "write,writev", "ENOSPC", runs);
   }
   RecordProperty("runs", runs);
@@ -132,8 +136,9 @@ TEST(FailingFiles, AreToldWhicheverWriteItIs) {
 
 TEST(FailingFiles, AreToldWhicheverNameItIs) {
   const test::TwoParts parts(32);
+  const test::RayLists lists("cube", 4);
   int runs = 0;
-  for (const CommandInFolder& command : commands(parts)) {
+  for (const CommandInFolder& command : commands(parts, lists)) {
     if (!command.outputs.empty()) expect_each_told(command, "rename,linkat", "EIO", runs);
   }
   RecordProperty("runs", runs);

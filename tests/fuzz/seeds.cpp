@@ -9,6 +9,7 @@
 
 #include "app/bake/bake.h"
 #include "app/cli/picture_source.h"
+#include "app/judge/ray_file.h"
 #include "app/mesh/model_file.h"
 #include "app/picture/image_file.h"
 #include "app/report/document.h"
@@ -180,6 +181,13 @@ void add_texts(std::vector<Seed>& seeds) {
   for (const char* value : {"800x600", "1,-2.5,3e2", "0.5,0.7,1", "color,Z,N,G,patch,uv,P,evals",
                             "0:59", "0,0,100,50", "vulkan,opengl,cpu", "color_rmse=0.5"}) {
     add(3, value);
+  }
+  const std::vector<FileRay> rays(2);
+  const std::vector<FileHit> hits{{1.5, 0.25, 0.5, 12}, {}, {2.0, 0.0, 0.0, kSomeTriangle}};
+  for (const char* name : {"a.csv", "a"}) {
+    const char kind = std::string_view(name) == "a" ? 5 : 4;
+    add(kind, rays_for(name, rays));
+    add(kind, hits_for(name, hits));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "app/cli/options.h"
+#include "app/judge/ray_file.h"
 #include "app/program/command_line.h"
 #include "app/view/flags.h"
 #include "app/view/script.h"
@@ -53,12 +54,31 @@ void parse_values(const std::string& text) {
   });
 }
 
+// A list of rays, or of hits.
+void read_ray_lists(const std::string& name, Bytes content) {
+  const std::filesystem::path file = write_input(name, content);
+  expect_answer([&] {
+    const std::vector<FileRay> rays = read_rays(file);
+    expect(!rays.empty(), "no rays");
+    for (const FileRay& ray : rays) {
+      expect(glm::length(ray.direction) > 0.0 && ray.t_min <= ray.t_max, "a ray that is none");
+    }
+  });
+  expect_answer([&] {
+    const std::vector<FileHit> hits = read_hits(file);
+    const std::string again = hits_for(name, hits);
+    write_input(name, Bytes(reinterpret_cast<const uint8_t*>(again.data()), again.size()));
+    expect(read_hits(file).size() == hits.size(),
+           "hits that are not read back as they were written");
+  });
+}
+
 }  // namespace
 
 void text_input(Bytes input) {
   if (input.empty()) return;
   const std::string text = text_of(input.subspan(1));
-  switch (input[0] % 4) {
+  switch (input[0] % 6) {
     case 0:
       return parse_command_line(text);
     case 1:
@@ -66,8 +86,10 @@ void text_input(Bytes input) {
     case 2:
       write_input("script", input.subspan(1));
       return expect_answer([] { view::read_script((input_folder() / "script").string()); });
-    default:
+    case 3:
       return parse_values(text);
+    default:
+      return read_ray_lists(input[0] % 6 == 4 ? "list.csv" : "list", input.subspan(1));
   }
 }
 

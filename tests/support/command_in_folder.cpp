@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <vector>
 
+#include "app/judge/cast_files.h"
+#include "app/judge/hard_rays.h"
+#include "app/judge/ray_file.h"
 #include "tests/support/file_content.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scenes.h"
@@ -52,6 +56,26 @@ CommandInFolder TwoParts::stitched() const {
 CommandInFolder TwoParts::compared() const {
   return {{"compare", names_[0], names_[0], "--diff", "FOLDER/d.png", "--json", "FOLDER/c.json"},
           {"d.png", "c.json"}};
+}
+
+RayLists::RayLists(const std::string& asset, std::size_t count)
+    : model_(asset_path(asset)), rays_(folder_ / "a.rays"), hits_(folder_ / "a.hits") {
+  const BakedScene scene = bake_about(load_asset(asset), SurfaceChoice{}, glm::dvec3(0.0));
+  std::vector<FileRay> rays;
+  for (const RayKind& kind : kRayKinds) {
+    for (const FileRay& ray : hard_rays(scene, kind.name, count, 1)) rays.push_back(ray);
+  }
+  std::ofstream(rays_, std::ios::binary) << rays_for(rays_, rays);
+  std::ofstream(hits_, std::ios::binary) << hits_for(hits_, *cast_by_oracle(scene, rays, {}));
+}
+
+CommandInFolder RayLists::cast() const {
+  return {{"cast", rays_, model_, "--backend", "cpu", "-o", "FOLDER/a.hits"}, {"a.hits"}};
+}
+
+CommandInFolder RayLists::judged() const {
+  return {{"judge", rays_, hits_, model_, "--json", "FOLDER/j.json", "--wrong", "FOLDER/w.csv"},
+          {"j.json", "w.csv"}};
 }
 
 }  // namespace trisect::test

@@ -43,4 +43,20 @@ class TwoParts {
   std::vector<std::string> names_;
 };
 
+// Rays at an asset and what they hit, for commands that read lists of them.
+class RayLists {
+ public:
+  // count: of rays of each of the kinds of hard_rays().
+  RayLists(const std::string& asset, std::size_t count);
+
+  [[nodiscard]] CommandInFolder cast() const;  // on the CPU
+  [[nodiscard]] CommandInFolder judged() const;
+
+ private:
+  TemporaryFolder folder_;
+  std::string model_;
+  std::string rays_;
+  std::string hits_;
+};
+
 }  // namespace trisect::test
