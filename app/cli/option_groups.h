@@ -7,6 +7,7 @@ namespace trisect::option_group {
 
 inline constexpr const char* kModel = "Model";
 inline constexpr const char* kInput = "Images";  // that are read
+inline constexpr const char* kRays = "Rays";     // and hits, that are read
 inline constexpr const char* kSurface = "Surface";
 inline constexpr const char* kCamera = "Camera";
 inline constexpr const char* kPicture = "Picture";
@@ -18,7 +19,7 @@ inline constexpr const char* kOutput = "Output";
 inline constexpr const char* kHelp = "Help";
 
 // In the order in which help shows them.
-inline constexpr std::array kAll{kModel,   kInput,     kSurface, kCamera, kPicture, kSequence,
-                                 kTracing, kMeasuring, kWindow,  kOutput, kHelp};
+inline constexpr std::array kAll{kModel,    kInput,   kRays,      kSurface, kCamera, kPicture,
+                                 kSequence, kTracing, kMeasuring, kWindow,  kOutput, kHelp};
 
 }  // namespace trisect::option_group

@@ -322,10 +322,11 @@ void add_single_model(CLI::App& command, SingleModel& model) {
   add_alpha(command, model.alpha);
 }
 
-void add_file(CLI::App& command, const std::string& name, std::string& file,
+// Adds a file of rays or hits that is read.
+void add_list(CLI::App& command, const std::string& name, std::string& file,
               const std::string& what) {
   command.add_option(name, file, what)
-      ->group(option_group::kInput)
+      ->group(option_group::kRays)
       ->required()
       ->check(not_empty())
       ->check(suggest_files({}));
@@ -369,7 +370,7 @@ Command add_rays(CLI::App& app) {
 Command add_cast(CLI::App& app) {
   const auto [command, options] =
       add_command<CastOptions>(app, "cast", "Write what the rays of a file hit first");
-  add_file(command, "RAYS", options->rays, "File of rays");
+  add_list(command, "RAYS", options->rays, "File of rays");
   add_single_model(command, options->model);
   add_output(command, options->output, "File of hits to write: .csv is text, any other binary");
   command
@@ -389,8 +390,8 @@ Command add_cast(CLI::App& app) {
 Command add_judge(CLI::App& app) {
   const auto [command, options] = add_command<JudgeOptions>(
       app, "judge", "Judge the hits that any program found for the rays of a file");
-  add_file(command, "RAYS", options->rays, "File of rays");
-  add_file(command, "HITS", options->hits, "File of hits, one for each ray");
+  add_list(command, "RAYS", options->rays, "File of rays");
+  add_list(command, "HITS", options->hits, "File of hits, one for each ray");
   add_single_model(command, options->model);
   add_json(command, options->json, "Write the figures as JSON");
   command.add_option("--wrong", options->wrong, "Write the rays with a wrong answer as CSV")
