@@ -11,8 +11,9 @@
 
 namespace trisect {
 
-// The mesh as the kernels see it. Positions are relative to `origin`, the centre of the vertices'
-// bounding box, so that a model far from the world's origin keeps its digits in single precision.
+// The mesh as the kernels see it. Positions are relative to `origin`: the centre of the vertices'
+// bounding box, so that a model far from the world's origin keeps its digits in single precision,
+// or what bake_about() was given.
 struct BakedScene {
   SurfaceChoice choice;
   glm::dvec3 origin{0.0};
