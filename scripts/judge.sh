@@ -69,8 +69,8 @@ $isa; the rasteriser: $(figure .driver), $(figure .device); trisect on $device, 
 
 - Undecidable: the answer changes when the ray is moved by one part in 1e7 of the model's radius, or of the distance to its middle
   if that is larger. Such rays count for nothing else.
-- Missed, invented: no hit where there is one, a hit where there is none. Wrong place: another triangle, or another root of the
-  same, such as one behind the first. At an edge, at a vertex: where the missed root lies, within a thousandth of its weights.
+- Missed, invented: no hit where there is one, a hit where there is none. Wrong place: another triangle, farther off than a unit in
+  the last place of t and a millionth of the radius, or another root of the same, such as one behind the first. At an edge, at a vertex: where the missed root lies, within a thousandth of its weights.
 - ulp: the error of t of the right hits, in units in the last place of single precision, the largest of the models' medians and
   of the values that one in a hundred exceeds.
 

@@ -50,6 +50,9 @@ JudgedRay judged_ray(const FileRay& ray, const FileHit& hit, const OracleAnswer&
   judged.length = classified.depth_error;
   judged.across = classified.off_surface;
   judged.ulp = std::abs(hit.t - judged.truth.t) / ulp_of(judged.truth.t);
+  if (judged.verdict == RayVerdict::wrong_patch && judged.ulp <= kTieUlps) {
+    judged.verdict = RayVerdict::hit;
+  }
   if (hit.triangle == judged.truth.triangle) {
     judged.weight = std::max(std::abs(hit.u - judged.truth.u), std::abs(hit.v - judged.truth.v));
   }

@@ -15,6 +15,10 @@
 
 namespace trisect {
 
+// Of far rays a unit in the last place of t is more than kTie: hits on different triangles whose t
+// are no more of these apart are a tie, too.
+constexpr double kTieUlps = 1.0;
+
 // Where in its triangle a root is: whether one of its weights is less than this, or two.
 constexpr double kNearBorder = 1e-3;
 enum class RootPlace { inside, edge, vertex };

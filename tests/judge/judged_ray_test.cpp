@@ -140,6 +140,24 @@ TEST_P(Judged, LeaksAreToldByTheirPlace) {
   EXPECT_EQ(sum.at_vertex, 0U);
 }
 
+// Far away single precision does not tell neighbours apart.
+TEST_P(Judged, HitsWithinAUnitOfTheLastPlaceAreATie) {
+  ASSERT_NE(hits_[0].triangle, NO_TRIANGLE);
+  constexpr double away = 1e4;
+  rays_[0].origin -= rays_[0].direction * away;
+  const double ulp = std::ldexp(1.0, 13 - 23);  // between 8192 and 16384
+  const double t = hits_[0].t + away;
+  const auto judged = [&](double off) {
+    return with(0, [&](FileHit& hit) {
+      hit.t = t + off * ulp;
+      hit.triangle = (hit.triangle + 1) % 80;
+    });
+  };
+  EXPECT_EQ(judged(0.9).wrong(), 0U);
+  EXPECT_EQ(judged(0.9).hits, right_.hits);
+  EXPECT_EQ(judged(-3.0).wrong_patch, 1U);
+}
+
 // t counts in the direction's length.
 TEST_P(Judged, DirectionsMayHaveAnyLength) {
   for (std::size_t i = 0; i < rays_.size(); ++i) {
