@@ -122,33 +122,38 @@ Bounds bounds_of(const std::vector<dvec3>& positions) {
   return bounds;
 }
 
-}  // namespace
+// The kernels compute fourth powers of lengths in single precision, with a range of 1e-38 to 1e38.
+constexpr double kSmallest = 1e-9;
+constexpr double kLargest = 1e9;
 
-BakedScene bake(const Mesh& mesh, const SurfaceChoice& choice) {
-  const auto [low, high] = bounds_of(mesh.positions);
-  return bake_about(mesh, choice, low + (high - low) * 0.5);
+// Half the diagonal. Throws InputError if it is beyond these.
+double extent_of(const Bounds& bounds) {
+  const double span = glm::distance(bounds.low, bounds.high);
+  if (!(span >= kSmallest && span <= kLargest)) {
+    throw InputError(fmt::format(
+        "the model spans {:g} units; single precision needs it between {:g} and {:g}: scale it.",
+        span, kSmallest, kLargest));
+  }
+  return 0.5 * span;
 }
 
-BakedScene bake_about(const Mesh& mesh, const SurfaceChoice& choice, const dvec3& origin) {
+dvec3 middle_of(const Bounds& bounds) {
+  return bounds.low + (bounds.high - bounds.low) * 0.5;
+}
+
+BakedScene bake_within(const Mesh& mesh, const SurfaceChoice& choice, const Bounds& bounds,
+                       const dvec3& origin) {
   BakedScene scene;
   scene.choice = choice;
   scene.origin = origin;
-  const auto [low, high] = bounds_of(mesh.positions);
-  // The kernels compute fourth powers of lengths in single precision, with a range of 1e-38 to
-  // 1e38.
-  constexpr double smallest = 1e-9;
-  constexpr double largest = 1e9;
-  scene.extent = glm::distance(low, high) * 0.5;
-  if (!(2.0 * scene.extent >= smallest && 2.0 * scene.extent <= largest)) {
-    throw InputError(fmt::format(
-        "the model spans {:g} units; single precision needs it between {:g} and {:g}: scale it.",
-        2.0 * scene.extent, smallest, largest));
-  }
-  const double farthest = glm::length(glm::max(glm::abs(low - origin), glm::abs(high - origin)));
-  if (!(farthest <= largest)) {
+  scene.middle = middle_of(bounds) - origin;
+  scene.extent = extent_of(bounds);
+  const double farthest =
+      glm::length(glm::max(glm::abs(bounds.low - origin), glm::abs(bounds.high - origin)));
+  if (!(farthest <= kLargest)) {
     throw InputError(
         fmt::format("the model reaches {:g} units from the origin, farther than {:g}: move it.",
-                    farthest, largest));
+                    farthest, kLargest));
   }
   // At least: a patch may be several subpatches, and there may be a tree.
   expect_memory(static_cast<double>(mesh.triangles.size()) *
@@ -182,6 +187,21 @@ BakedScene bake_about(const Mesh& mesh, const SurfaceChoice& choice, const dvec3
         "take the normal shell.");
   }
   return scene;
+}
+
+}  // namespace
+
+void expect_size(const Mesh& mesh) {
+  extent_of(bounds_of(mesh.positions));
+}
+
+BakedScene bake(const Mesh& mesh, const SurfaceChoice& choice) {
+  const Bounds bounds = bounds_of(mesh.positions);
+  return bake_within(mesh, choice, bounds, middle_of(bounds));
+}
+
+BakedScene bake_about(const Mesh& mesh, const SurfaceChoice& choice, const dvec3& origin) {
+  return bake_within(mesh, choice, bounds_of(mesh.positions), origin);
 }
 
 std::size_t count_without_surface(const BakedScene& scene) {

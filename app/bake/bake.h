@@ -21,6 +21,7 @@ struct BakedScene {
   std::vector<SubpatchBounds> subpatches;  // for the robust solver; empty if it is not used
   std::vector<BvhNode> bvh;                // over the subpatches; empty if none is needed
   bool has_colors = false;                 // some triangles have colours, in Position[].w
+  glm::dvec3 middle{0.0};                  // of the bounding box, seen from `origin`
   double extent = 0.0;                     // half the diagonal of the bounding box
   double radius = 0.0;  // of the ball about `origin` that contains every triangle's Domain
 };
@@ -36,9 +37,12 @@ std::size_t count_without_surface(const BakedScene& scene);
 // or if no triangle has a surface.
 BakedScene bake(const Mesh& mesh, const SurfaceChoice& choice);
 
-// The same about an origin of the caller's in place of the middle of the mesh's bounding box: for
-// rays that are given in the model's own coordinates. The mesh reaches 1e9 units from there at
-// most.
+// Throws as bake() does if the model is too large or too small.
+void expect_size(const Mesh& mesh);
+
+// The same as bake() about an origin of the caller's in place of the middle of the mesh's bounding
+// box: for rays that are given in the model's own coordinates. The mesh reaches 1e9 units from
+// there at most.
 BakedScene bake_about(const Mesh& mesh, const SurfaceChoice& choice, const glm::dvec3& origin);
 
 // One triangle, from positions relative to the scene's origin and unit normals. Pure. Everything

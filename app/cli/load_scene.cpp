@@ -133,8 +133,7 @@ BakedScene bake_showing_progress(const Mesh& mesh, const SurfaceChoice& choice) 
 void expect_readable(const std::vector<std::string>& models) {
   for (const std::string& model : models) {
     const Mesh mesh = build_mesh(read_model(model), model).mesh;
-    // Throws if single precision has no room for the model's size.
-    named(model, [&] { return bake(mesh, {SURFACE_FLAT, 0.0}); });
+    named(model, [&] { expect_size(mesh); });
     stop_if_interrupted();
   }
 }

@@ -42,7 +42,7 @@ LoadedScene load_scene(const RenderOptions& options);
 // it.
 BakedScene bake_showing_progress(const Mesh& mesh, const SurfaceChoice& choice);
 
-// Reads and bakes every file, for a command that measures for long: what cannot be read, or is too
+// Reads every file, for a command that measures for long: what cannot be read, or is too
 // large or too small, is found before. Throws InputError.
 void expect_readable(const std::vector<std::string>& models);
 

@@ -14,18 +14,6 @@ namespace {
 
 using glm::dvec3;
 
-dvec3 middle_of(const BakedScene& scene) {
-  dvec3 low(std::numeric_limits<double>::infinity());
-  dvec3 high = -low;
-  for (const Triangle& tri : scene.triangles) {
-    for (const vec4& position : tri.Position) {
-      low = glm::min(low, dvec3(position));
-      high = glm::max(high, dvec3(position));
-    }
-  }
-  return scene.origin + low + (high - low) * 0.5;
-}
-
 FoundHit found_hit(const FileHit& hit, double length, const OracleAnswer& answer) {
   // A triangle that is not told is the right one.
   const uint triangle =
@@ -76,7 +64,7 @@ std::optional<std::vector<JudgedRay>> judged_rays(const BakedScene& scene,
     if (hit.triangle < kSomeTriangle) static_cast<void>(scene.triangles.at(hit.triangle));
   }
   const Oracle oracle(scene);
-  const dvec3 middle = middle_of(scene);
+  const dvec3 middle = scene.origin + scene.middle;
   std::vector<JudgedRay> judged(rays.size());
   const bool is_whole = parallel_rows(
       static_cast<uint32_t>(rays.size()),
