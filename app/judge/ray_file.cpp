@@ -56,6 +56,17 @@ std::optional<double> number_in(std::string_view text) {
   return is_number ? std::optional(value) : std::nullopt;
 }
 
+[[noreturn]] void refuse(const fs::path& path, std::size_t line, std::string_view cell,
+                         const char* what) {
+  throw InputError(fmt::format("{}, line {}: '{}' is not {}.", path.string(), line, cell, what));
+}
+
+double number_of_cell(const fs::path& path, std::size_t line, std::string_view cell) {
+  const std::optional<double> number = number_in(cell);
+  if (!number) refuse(path, line, cell, "a number");
+  return *number;
+}
+
 // Calls use(cells, line) for each line of a text that is not empty, but for one that names the
 // columns. Throws InputError if it has another number of cells than there are columns.
 template <std::size_t count, typename Use>
@@ -147,12 +158,7 @@ std::vector<FileRay> read_rays(const fs::path& path) {
     for_lines<8>(path, kRayColumns, [&](const auto& cells, std::size_t line) {
       std::array<double, 8> x{};
       for (std::size_t k = 0; k < 8; ++k) {
-        const auto number = number_in(cells[k]);
-        if (!number) {
-          throw InputError(
-              fmt::format("{}, line {}: '{}' is not a number.", path.string(), line, cells[k]));
-        }
-        x[k] = *number;
+        x[k] = number_of_cell(path, line, cells[k]);
       }
       add(x, fmt::format("line {}", line));
     });
@@ -176,10 +182,6 @@ std::vector<FileHit> read_hits(const fs::path& path) {
     return hits;
   }
   for_lines<4>(path, kHitColumns, [&](const auto& cells, std::size_t line) {
-    const auto fail = [&](std::string_view cell, const char* what) {
-      throw InputError(
-          fmt::format("{}, line {}: '{}' is not {}.", path.string(), line, cell, what));
-    };
     FileHit hit;
     if (cells[3] == "-1") {
       hits.push_back(hit);
@@ -190,16 +192,14 @@ std::vector<FileHit> read_hits(const fs::path& path) {
       const auto number = number_in(cells[3]);
       if (!number || !(*number >= 0.0 && *number < kSomeTriangle) ||
           *number != std::floor(*number)) {
-        fail(cells[3], "the number of a triangle");
+        refuse(path, line, cells[3], "the number of a triangle");
       }
       hit.triangle = static_cast<uint32_t>(*number);
     }
     const std::array<double*, 3> numbers{&hit.t, &hit.u, &hit.v};
     for (std::size_t k = 0; k < 3; ++k) {
       if (k > 0 && cells[k].empty()) continue;
-      const auto number = number_in(cells[k]);
-      if (!number) fail(cells[k], "a number");
-      *numbers[k] = *number;
+      *numbers[k] = number_of_cell(path, line, cells[k]);
     }
     hits.push_back(hit);
   });
