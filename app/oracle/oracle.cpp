@@ -56,14 +56,6 @@ bool same(const OracleRay& ray, const OracleAnswer& a, const OracleAnswer& b, do
   return std::abs(a.root.t - b.root.t) <= 50.0 * motion / sine;
 }
 
-// Whether a vertex that the ray passes by less than the motion lies before the answer: moved there
-// the ray meets it. A sharp corner may lie between the directions in which rays are moved.
-bool passes_vertex(const OracleRay& ray, double vertex_t, const OracleAnswer& answer,
-                   double motion) {
-  if (!answer.hit) return vertex_t < kInfinity;
-  return vertex_t < answer.root.t - 50.0 * motion / std::max(slant(ray, answer.root), motion);
-}
-
 OracleAnswer answer_of(const std::vector<OracleRoot>& roots, double t_min, double t_max) {
   OracleAnswer answer;
   for (const OracleRoot& root : roots) {
@@ -80,7 +72,6 @@ OracleAnswer answer_of(const std::vector<OracleRoot>& roots, double t_min, doubl
 struct Oracle::Search {
   std::vector<OracleRoot> roots;  // sorted by t; some lie beyond the ray's ends
   double doubt_t = kInfinity;     // PatchFindings::doubt_t
-  double vertex_t = kInfinity;    // PatchSearch::first_vertex, for half the margin
 };
 
 Oracle::Oracle(const BakedScene& scene) {
@@ -110,8 +101,6 @@ Oracle::Search Oracle::search(const OracleRay& ray, double margin) const {
     patches_[triangle].roots(line, t_min, t_max, findings);
     append(triangle, findings, found.roots);
     found.doubt_t = std::min(found.doubt_t, findings.doubt_t);
-    found.vertex_t =
-        std::min(found.vertex_t, patches_[triangle].first_vertex(line, t_min, t_max, 0.5 * margin));
   }
   std::stable_sort(found.roots.begin(), found.roots.end(), earlier);
   return found;
@@ -139,8 +128,7 @@ OracleAnswer Oracle::first(const OracleRay& ray, double motion) const {
   const Search found = search(ray, 2.0 * motion);
   OracleAnswer answer = answer_of(found.roots, ray.t_min, ray.t_max);
   if (suspicious(ray, found, motion)) {
-    answer.decidable =
-        !passes_vertex(ray, found.vertex_t, answer, motion) && survives_motion(ray, answer, motion);
+    answer.decidable = !passes_vertex(ray, answer, motion) && survives_motion(ray, answer, motion);
   }
   return answer;
 }
@@ -163,6 +151,22 @@ bool Oracle::suspicious(const OracleRay& ray, const Search& found, double motion
     break;
   }
   return found.doubt_t <= first_t + near_end;
+}
+
+// Whether a vertex that the ray passes by less than the motion lies before the answer: moved there
+// the ray meets it. A sharp corner may lie between the directions in which survives_motion() moves.
+bool Oracle::passes_vertex(const OracleRay& ray, const OracleAnswer& answer, double motion) const {
+  const double t_min = ray.t_min - 2.0 * motion;
+  const double t_max = ray.t_max + 2.0 * motion;
+  const double before =
+      answer.hit ? answer.root.t - 50.0 * motion / std::max(slant(ray, answer.root), motion)
+                 : kInfinity;
+  std::vector<uint32_t> candidates;
+  tree_.meet(ray.origin, ray.direction, t_min, t_max, motion, candidates);
+  const Line line = line_along(ray.origin, ray.direction);
+  return std::any_of(candidates.begin(), candidates.end(), [&](uint32_t triangle) {
+    return patches_[triangle].first_vertex(line, t_min, t_max, motion) < before;
+  });
 }
 
 bool Oracle::survives_motion(const OracleRay& ray, const OracleAnswer& answer,

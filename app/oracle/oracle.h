@@ -71,6 +71,8 @@ class Oracle {
   struct Search;
   [[nodiscard]] Search search(const OracleRay& ray, double margin) const;
   [[nodiscard]] bool suspicious(const OracleRay& ray, const Search& found, double motion) const;
+  [[nodiscard]] bool passes_vertex(const OracleRay& ray, const OracleAnswer& answer,
+                                   double motion) const;
   [[nodiscard]] bool survives_motion(const OracleRay& ray, const OracleAnswer& answer,
                                      double motion) const;
 
