@@ -112,7 +112,7 @@ StabilityPoint measure(const Axis& axis, const Solver& solver, double value, uin
   // Seeded alike for all values, so that these differ in nothing else.
   std::mt19937_64 random(5);
   const std::vector<CastRay> rays = rays_at(scene, axis.degrees(value), count, random);
-  TraceSettings settings;
+  TraceSettings settings = casting_settings(scene);
   settings.solver = solver.solver;
   settings.rank = solver.rank;
   const std::vector<CastHit> hits =

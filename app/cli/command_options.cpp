@@ -57,6 +57,16 @@ void add_size(CLI::App& command, std::optional<std::string>& size, const std::st
       ->type_name("WxH");
 }
 
+void add_surface(CLI::App& command, uint& surface) {
+  command
+      .add_option_function<std::string>(
+          "--surface", [&surface](const std::string& name) { surface = surface_of(name); },
+          "How triangles are curved: flat, phong or sphere, default phong")
+      ->group(option_group::kSurface)
+      ->check(one_of({"flat", "phong", "sphere"}))
+      ->type_name("NAME");
+}
+
 void add_surfaces(CLI::App& command, std::optional<std::string>& surface) {
   command
       .add_option("--surface", surface,

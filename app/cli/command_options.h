@@ -4,13 +4,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <type_traits>
 #include <vector>
 
+#include "app/base/number_text.h"
 #include "app/surface/shared.h"
 
 namespace trisect {
@@ -20,10 +19,8 @@ template <typename Number>
 CLI::Validator number_from_to(Number low, Number high) {
   return CLI::Validator(
       [low, high](const std::string& text) -> std::string {
-        Number value{};
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        const bool parsed = error == std::errc() && end == text.data() + text.size();
-        if (parsed && value >= low && value <= high) return {};
+        const std::optional<Number> value = number_in<Number>(text);
+        if (value && *value >= low && *value <= high) return {};
         return fmt::format("'{}' is not a {}number from {} to {}", text,
                            std::is_integral_v<Number> ? "whole " : "", low, high);
       },
@@ -48,6 +45,9 @@ void add_models(CLI::App& command, std::vector<std::string>& models);
 
 // Adds --size. Its help names `standard` as the default.
 void add_size(CLI::App& command, std::optional<std::string>& size, const std::string& standard);
+
+// Adds --surface; what it says goes into `surface`.
+void add_surface(CLI::App& command, uint& surface);
 
 // Adds --surface to a command whose default is both curved surfaces.
 void add_surfaces(CLI::App& command, std::optional<std::string>& surface);

@@ -65,11 +65,7 @@ std::vector<FileHit> cast_by(const CastOptions& options, const Mesh& mesh,
   }
   BakedScene scene = named(options.model.file,
                            [&] { return bake_showing_progress(mesh, choice_of(options.model)); });
-  TraceSettings settings;
-  // Cast rays need no camera, but the parameters need a valid one.
-  settings.camera.eye = scene.origin + dvec3(0.0, 0.0, 3.0 * scene.radius);
-  settings.camera.target = scene.origin;
-  const TraceParams params = make_params(scene, settings);
+  const TraceParams params = make_params(scene, casting_settings(scene));
   ProgressLine line("casting", rays.size());
   if (options.backend == Backend::cpu) {
     return finished(cast_file_rays(

@@ -59,12 +59,7 @@ void add_view(CLI::App& command, RenderOptions& options, SceneText& text) {
   // The last of a repeated option counts.
   command.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   add_size(command, text.size, "800x600");
-  command
-      .add_option("--surface", text.surface,
-                  "How triangles are curved: flat, phong or sphere, default phong")
-      ->group(option_group::kSurface)
-      ->check(one_of({"flat", "phong", "sphere"}))
-      ->type_name("NAME");
+  add_surface(command, options.surface);
   add_alpha(command, options.alpha);
   command
       .add_option(
@@ -186,7 +181,6 @@ void add_spp(CLI::App& command, uint32_t& spp) {
 }
 
 void parse_scene(const SceneText& text, RenderOptions& options) {
-  if (!text.surface.empty()) options.surface = surface_of(text.surface);
   if (text.gl_path) {
     options.gl_path = *text.gl_path == "fragment" ? GlPath::fragment : GlPath::compute;
   }

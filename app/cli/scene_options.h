@@ -12,7 +12,6 @@ namespace trisect {
 // Values of options as CLI11 hands them over, which parse_scene() parses. The rank is here because
 // --preset sets it unless --rank is given.
 struct SceneText {
-  std::string surface;
   std::optional<std::string> accel;
   std::optional<std::string> gl_path;
   std::optional<std::string> preset;

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstdlib>
+#include <optional>
 #include <string_view>
-#include <system_error>
 
 #include "app/base/error.h"
+#include "app/base/number_text.h"
 #include "app/base/threads.h"
 
 namespace trisect {
@@ -17,13 +17,12 @@ void take_threads_setting() {
   const char* setting = std::getenv("TRISECT_THREADS");
   if (setting == nullptr) return;
   const std::string_view text = setting;
-  unsigned threads = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), threads);
-  if (error != std::errc() || end != text.data() + text.size() || threads < 1 || threads > most) {
+  const std::optional<unsigned> threads = number_in<unsigned>(text);
+  if (!threads || *threads < 1 || *threads > most) {
     throw UsageError(
         fmt::format("TRISECT_THREADS is '{}': a whole number from 1 to {} is wanted.", text, most));
   }
-  set_worker_threads(threads);
+  set_worker_threads(*threads);
 }
 
 }  // namespace trisect

@@ -16,6 +16,13 @@ TraceSettings framed_settings(const Mesh& mesh, const BakedScene& scene, uint32_
   return settings;
 }
 
+TraceSettings casting_settings(const BakedScene& scene) {
+  TraceSettings settings;
+  settings.camera.eye = scene.origin + glm::dvec3(0.0, 0.0, 3.0 * scene.radius);
+  settings.camera.target = scene.origin;
+  return settings;
+}
+
 TraceParams make_params(const BakedScene& scene, const TraceSettings& settings) {
   TraceParams params{};
   const ImagePart part = settings.part.value_or(ImagePart{0, 0, settings.width, settings.height});

@@ -77,6 +77,10 @@ struct TraceSettings {
 TraceSettings framed_settings(const Mesh& mesh, const BakedScene& scene, uint32_t width,
                               uint32_t height);
 
+// Settings for rays that are cast one by one: their camera is valid, and what it sees means
+// nothing.
+TraceSettings casting_settings(const BakedScene& scene);
+
 // Throws UsageError if the settings' camera is not valid, as set_rays() does.
 TraceParams make_params(const BakedScene& scene, const TraceSettings& settings);
 

@@ -4,14 +4,13 @@
 
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <string_view>
 
 #include "app/base/error.h"
 #include "app/base/memory.h"
+#include "app/base/number_text.h"
 #include "app/base/read_file.h"
 
 namespace trisect {
@@ -49,20 +48,13 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-std::optional<double> number_in(std::string_view text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_number = error == std::errc() && end == text.data() + text.size();
-  return is_number ? std::optional(value) : std::nullopt;
-}
-
 [[noreturn]] void refuse(const fs::path& path, std::size_t line, std::string_view cell,
                          const char* what) {
   throw InputError(fmt::format("{}, line {}: '{}' is not {}.", path.string(), line, cell, what));
 }
 
 double number_of_cell(const fs::path& path, std::size_t line, std::string_view cell) {
-  const std::optional<double> number = number_in(cell);
+  const std::optional<double> number = number_in<double>(cell);
   if (!number) refuse(path, line, cell, "a number");
   return *number;
 }
@@ -189,7 +181,7 @@ std::vector<FileHit> read_hits(const fs::path& path) {
     }
     hit.triangle = kSomeTriangle;
     if (!cells[3].empty()) {
-      const auto number = number_in(cells[3]);
+      const auto number = number_in<double>(cells[3]);
       if (!number || !(*number >= 0.0 && *number < kSomeTriangle) ||
           *number != std::floor(*number)) {
         refuse(path, line, cells[3], "the number of a triangle");

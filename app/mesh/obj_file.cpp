@@ -19,6 +19,7 @@
 #include "app/base/error.h"
 #include "app/base/folder_of.h"
 #include "app/base/message.h"
+#include "app/base/number_text.h"
 #include "app/mesh/file_bytes.h"
 #include "app/mesh/obj_materials.h"
 #include "app/mesh/obj_text.h"
@@ -68,10 +69,7 @@ std::optional<double> number_of(std::string_view word) {
 
 std::optional<int> whole_number(std::string_view word) {
   if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
-  int value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  const bool is_whole = error == std::errc() && end == word.data() + word.size();
-  return is_whole ? std::optional(value) : std::nullopt;
+  return number_in<int>(word);
 }
 
 // A corner of a face as the file writes it: v, v/vt, v//vn or v/vt/vn, where what follows v may be

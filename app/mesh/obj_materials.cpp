@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <optional>
 #include <string_view>
 
 #include "app/base/error.h"
+#include "app/base/number_text.h"
 #include "app/mesh/file_bytes.h"
 #include "app/mesh/obj_text.h"
 
@@ -14,14 +14,6 @@ namespace trisect {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::optional<float> number_in(std::string_view& words) {
-  const std::string_view word = take_word(words);
-  float value = 0.0F;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  const bool is_number = error == std::errc() && end == word.data() + word.size() && !word.empty();
-  return is_number ? std::optional(value) : std::nullopt;
-}
 
 // tinyobjloader takes a material without Kd for a black one: so read here what there is of them.
 void read_materials(std::string_view file_text, std::map<std::string, glm::vec3>& colors) {
@@ -35,11 +27,11 @@ void read_materials(std::string_view file_text, std::map<std::string, glm::vec3>
     } else if (lines.key() == "map_Kd") {
       textured.insert(material);
     } else if (lines.key() == "Kd" && !material.empty()) {
-      const std::optional<float> red = number_in(words);
+      const std::optional<float> red = number_in<float>(take_word(words));
       if (!red) continue;
       // The others are the same if they are left out.
-      const float green = number_in(words).value_or(*red);
-      colors[material] = {*red, green, number_in(words).value_or(*red)};
+      const float green = number_in<float>(take_word(words)).value_or(*red);
+      colors[material] = {*red, green, number_in<float>(take_word(words)).value_or(*red)};
     }
   }
   for (const std::string& name : textured) colors.erase(name);

@@ -260,13 +260,9 @@ Command add_info(CLI::App& app) {
 }
 
 Command add_export(CLI::App& app) {
-  struct Values {
-    ExportOptions options;
-    std::optional<std::string> surface;
-  };
-  const auto [command, values] = add_command<Values>(
+  const auto [command, values] = add_command<ExportOptions>(
       app, "export", "Write a model's curved surface as flat triangles, for other programs");
-  ExportOptions& options = values->options;
+  ExportOptions& options = *values;
   add_model(command, options.model);
   command.add_option("-o,--output", options.output, "File to write: .obj, .ply, .stl or .glb")
       ->group(option_group::kOutput)
@@ -275,12 +271,7 @@ Command add_export(CLI::App& app) {
       ->required()
       ->type_name("FILE");
   add_mesh_options(command, options.mesh);
-  command
-      .add_option("--surface", values->surface,
-                  "How triangles are curved: flat, phong or sphere, default phong")
-      ->group(option_group::kSurface)
-      ->check(one_of({"flat", "phong", "sphere"}))
-      ->type_name("NAME");
+  add_surface(command, options.surface);
   add_alpha(command, options.alpha);
   CLI::Option_group* how = command.add_option_group("how fine");
   how->add_option("--subdivide", options.subdivide, "N x N flat triangles for each of the model's")
@@ -295,23 +286,14 @@ Command add_export(CLI::App& app) {
       ->type_name("EPS");
   how->require_option(1);
   add_json(command, options.json, "Write the figures as JSON");
-  return {&command, [values = values] {
-            if (values->surface) values->options.surface = surface_of(*values->surface);
-            return export_mesh(values->options);
-          }};
+  return {&command, [values = values] { return export_mesh(*values); }};
 }
 
 // Adds MODEL and what its surface is to a command that exchanges rays.
 void add_single_model(CLI::App& command, SingleModel& model) {
   add_model(command, model.file);
   add_mesh_options(command, model.mesh);
-  command
-      .add_option_function<std::string>(
-          "--surface", [&model](const std::string& name) { model.surface = surface_of(name); },
-          "How triangles are curved: flat, phong or sphere, default phong")
-      ->group(option_group::kSurface)
-      ->check(one_of({"flat", "phong", "sphere"}))
-      ->type_name("NAME");
+  add_surface(command, model.surface);
   command
       .add_option_function<std::string>(
           "--shell", [&model](const std::string& name) { model.shell = shell_of(name); },

@@ -5,11 +5,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
-#include <cstring>
+#include <optional>
 #include <sstream>
 
+#include "app/base/number_text.h"
 #include "app/program/command_texts.h"
 
 namespace trisect {
@@ -22,10 +22,8 @@ constexpr std::size_t kIndent = 2;
 
 std::size_t columns_wanted() {
   if (const char* text = std::getenv("COLUMNS"); text != nullptr) {
-    std::size_t columns = 0;
-    const char* end = text + std::strlen(text);
-    const auto [rest, error] = std::from_chars(text, end, columns);
-    if (error == std::errc() && rest == end && columns > 0) return columns;
+    const std::optional<std::size_t> columns = number_in<std::size_t>(text);
+    if (columns && *columns > 0) return *columns;
   }
   winsize size{};
   if (isatty(STDOUT_FILENO) == 1 && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 &&

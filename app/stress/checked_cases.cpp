@@ -162,11 +162,10 @@ CheckedOutcome expect_refusal(const std::string& text) {
 CheckedOutcome expect_met(const StressBackend& backend, const std::string& text) {
   const Mesh mesh = build_mesh(parse_obj(text, "hard.obj"), "hard.obj").mesh;
   const BakedScene scene = robust_scene(mesh);
-  TraceSettings settings = framed(mesh, scene, 8, 8, 45.0);
   std::mt19937_64 random(7);
   const std::vector<CastRay> rays = stress::rays_at_surface(scene, random, 200);
   const std::vector<CastHit> hits =
-      backend.cast(scene, make_params(scene, settings), SOLVER_ROBUST, rays);
+      backend.cast(scene, make_params(scene, casting_settings(scene)), SOLVER_ROBUST, rays);
   return judge(rays, hits, oracle_answers(Oracle(scene), rays, scene.radius), scene.radius);
 }
 
@@ -187,9 +186,8 @@ CheckedOutcome many_triangles(const StressBackend& backend) {
     rays.push_back(stress::ray_exactly_through(scene, {unit(random), unit(random), 0.0},
                                                {0.3 * unit(random), 0.3 * unit(random), -1.0}));
   }
-  const TraceSettings settings = framed(mesh, scene, 8, 8, 45.0);
   const std::vector<CastHit> hits =
-      backend.cast(scene, make_params(scene, settings), SOLVER_ROBUST, rays);
+      backend.cast(scene, make_params(scene, casting_settings(scene)), SOLVER_ROBUST, rays);
   CheckedOutcome outcome;
   outcome.rays = rays.size();
   for (std::size_t i = 0; i < rays.size(); ++i) {

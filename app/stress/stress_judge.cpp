@@ -43,11 +43,8 @@ struct Prepared {
 Prepared prepare(const RayCase& ray_case, uint surface, uint shell) {
   Prepared prepared;
   prepared.scene = bake_with_subpatches(ray_case.mesh(), {surface, ray_case.alpha, shell});
-  TraceSettings settings;
+  TraceSettings settings = casting_settings(prepared.scene);
   settings.rank = ray_case.rank;
-  // The case has its own rays, but the parameters need a valid camera.
-  settings.camera.eye = prepared.scene.origin + dvec3(0.0, 0.0, 3.0 * prepared.scene.radius);
-  settings.camera.target = prepared.scene.origin;
   prepared.params = make_params(prepared.scene, settings);
   std::mt19937_64 random(7);
   prepared.rays = ray_case.rays(prepared.scene, random);
