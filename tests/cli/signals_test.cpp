@@ -88,6 +88,7 @@ TEST(Signals, EndEveryCommandInOrder) {
   const std::string cube = test::asset_path("cube");
   const std::string teapot = test::asset_path("teapot");
   const test::TwoParts parts(1400);
+  const test::RayLists lists("torus", 100);
   int told = 0;
   for (const CommandInFolder& command : std::vector<CommandInFolder>{
            {{"render", teapot, "--size", "320x240", "--stats", "FOLDER/s.json", "-o",
@@ -111,7 +112,10 @@ TEST(Signals, EndEveryCommandInOrder) {
            {{"accuracy", cube, "--size", "32x24", "--json", "FOLDER/a.json"}, {"a.json"}},
            {{"bench", "speed", cube, "--size", "64x48", "--runs", "1", "--surface", "phong",
              "--error", "1e-2", "--json", "FOLDER/b.json"},
-            {"b.json"}}}) {
+            {"b.json"}},
+           {{"rays", teapot, "--count", "20000", "-o", "FOLDER/a.csv"}, {"a.csv"}},
+           lists.cast(),
+           lists.judged()}) {
     told += expect_told_or_done(command);
   }
   EXPECT_GT(told, 500);
