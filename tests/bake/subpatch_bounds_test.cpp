@@ -10,6 +10,7 @@
 #include "app/base/interval.h"
 #include "app/dispatch/kernel_float.h"
 #include "app/dispatch/trace_settings.h"
+#include "app/stress/stress_scenes.h"
 #include "app/surface/control_net.h"
 #include "app/surface/surface_double.h"
 #include "app/surface/to_double.h"
@@ -185,6 +186,70 @@ TEST(SphereRange, HoldsSigmaAndItsChanges) {
   EXPECT_LT(widths, 10.0 * seen);
   // Only along the curve on which lines begin to miss a sphere is the gradient not bounded.
   EXPECT_GT(of_known_gradient, nodes * 9 / 10);
+}
+
+// Their fits: a ray through a point of the node overlaps it, and S and its tangents are no farther
+// from those of T + q D than the fit's errors.
+TEST(SphereRange, FitsTheNodesOfNonsmoothSubpatches) {
+  std::mt19937_64 random(8);
+  const BakedScene scene = baked({"teapot", {SURFACE_SPHERE, 0.0, SHELL_HEIGHT}});
+  const in_float::Shape single_shape{SURFACE_SPHERE, SHELL_HEIGHT, 0.0F};
+  const in_double::Shape shape = shape_of(scene.choice);
+  std::size_t of_known_gradient = 0;
+  std::size_t of_unknown_gradient = 0;
+  for (const SubpatchBounds& bounds : scene.subpatches) {
+    if (bounds.gradient_lipschitz != NONSMOOTH || bounds.skip > 0 || random() % 4 != 0) continue;
+    const Triangle& single = scene.triangles[bounds.triangle];
+    const in_double::Triangle tri = to_double(single);
+    const Patch corners = patch_of(shape.shell, single);
+    uint path = in_float::WHOLE;
+    for (int level = 0; level < 6; ++level, path = path << 2U | (random() & 3U)) {
+      const in_float::SubTriangle node =
+          in_float::with_overlap(in_float::sub_triangle_at(bounds.sub_triangle, path));
+      for (int i = 0; i < 6; ++i) {
+        // Three corners of the node and three points within it.
+        dvec3 l = random_weights(random);
+        if (i < 3) {
+          l = dvec3(0.0);
+          l[i] = 1.0;
+        }
+        const dvec3 w = dvec3(node.origin) + l * double{node.size};
+        const dvec3 S = in_double::surface_point(shape, tri, w);
+        const dvec3 view = stress::any_direction(random);
+        const in_float::RayFrame frame =
+            in_float::ray_frame(glm::vec3(S - view * scene.radius), glm::vec3(view));
+        in_float::Fit fit{};
+        uint evaluations = 0;
+        ASSERT_TRUE(in_float::ranged_fit(
+            single_shape, single,
+            in_float::sheared_patch(frame, in_float::rotated_patch(frame, SHELL_HEIGHT, single)),
+            node, in_float::position_tolerance(frame, single), fit, evaluations))
+            << "triangle " << bounds.triangle << " level " << level << " point " << i;
+        const DisplacementQuadratic q{dvec3(fit.corner), dvec3(fit.edge)};
+        const in_double::Displacement sigma =
+            in_double::displacement_and_derivatives(shape, tri, w);
+        const dvec3 D = in_double::shell_direction(SHELL_HEIGHT, tri, w);
+        const double e = sigma.s - q.blossom(w, w);
+        // What rounds in sigma itself, where lines begin to miss a sphere.
+        constexpr double rounding = 1e-5;
+        ASSERT_LE(std::abs(e) * glm::length(D), fit.position_error + rounding * scene.radius)
+            << "triangle " << bounds.triangle << " level " << level;
+        if (fit.tangent_error >= in_float::UNBOUNDED) {
+          ++of_unknown_gradient;
+          continue;
+        }
+        ++of_known_gradient;
+        const double off_u = sigma.u - 2.0 * q.blossom(w, {-1.0, 1.0, 0.0});
+        const double off_v = sigma.v - 2.0 * q.blossom(w, {-1.0, 0.0, 1.0});
+        const double off = std::max(glm::length(D * off_u + (corners.D[1] - corners.D[0]) * e),
+                                    glm::length(D * off_v + (corners.D[2] - corners.D[0]) * e));
+        ASSERT_LE(off, fit.tangent_error + rounding * scene.radius)
+            << "triangle " << bounds.triangle << " level " << level;
+      }
+    }
+  }
+  EXPECT_GT(of_known_gradient, 10000U);
+  EXPECT_GT(of_unknown_gradient, 1000U);
 }
 
 // The image positions of points of the surface lie in the box and within the lines of the projected

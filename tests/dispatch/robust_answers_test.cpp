@@ -180,5 +180,53 @@ TEST(RobustAnswers, OfTheSearchAreTheFirstRootOfTheSubpatch) {
   EXPECT_GT(hits, aimed);
 }
 
+// A triangle is hit however thin it looks, as long as that is more than its coordinates round.
+TEST(RobustAnswers, OfFlatTrianglesAreHitsAtAnySlant) {
+  std::mt19937_64 random(13);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const BakedScene scene =
+      bake_with_subpatches(test::load_asset("teapot"), {SURFACE_FLAT, 0.0, SHELL_NORMAL});
+  std::size_t slanting = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const auto triangle = static_cast<uint>(random() % scene.triangles.size());
+    const Triangle& tri = scene.triangles[triangle];
+    const dvec3 weights = glm::max(dvec3(unit(random), unit(random), unit(random)), 1e-2);
+    const dvec3 w = weights / (weights.x + weights.y + weights.z);
+    const dvec3 point =
+        dvec3(tri.Position[0]) * w.x + dvec3(tri.Position[1]) * w.y + dvec3(tri.Position[2]) * w.z;
+    // From all but level to steep.
+    const dvec3 normal(tri.TriNormal);
+    const dvec3 view = glm::normalize(stress::across(normal, random) +
+                                      normal * std::pow(10.0, -5.0 * unit(random)));
+    const in_float::RayFrame frame =
+        in_float::ray_frame(vec3(point - view * scene.radius), vec3(view));
+    const in_float::FramedPatch framed =
+        in_float::sheared_patch(frame, in_float::rotated_patch(frame, SHELL_NORMAL, tri));
+    const float tolerance = in_float::position_tolerance(frame, tri);
+    // How thin it looks.
+    const glm::dvec2 u(framed.P1 - framed.P0);
+    const glm::dvec2 v(framed.P2 - framed.P0);
+    const double length = std::max(glm::length(u), glm::length(v));
+    const double height = std::abs(u.x * v.y - u.y * v.x) / length;
+    in_float::Hit hit{};
+    hit.z = in_float::NO_HIT_YET;
+    hit.triangle = NO_TRIANGLE;
+    in_float::intersect_flat(framed, triangle, 0, tolerance, 0.0F, hit);
+    if (height > 4.0 * tolerance) {
+      ASSERT_EQ(hit.triangle, triangle) << height / tolerance;
+      if (height < 100.0 * tolerance) ++slanting;
+    }
+    if (hit.triangle != triangle) continue;
+    const dvec3 h(hit.weights);
+    const dvec3 met = dvec3(tri.Position[0]) * h.x + dvec3(tri.Position[1]) * h.y +
+                      dvec3(tri.Position[2]) * h.z - dvec3(frame.anchor);
+    // Its weights are quotients of areas, which round relative to the triangle's length: what that
+    // moves is so much larger where the triangle looks thin.
+    ASSERT_LT(glm::length(glm::cross(met, glm::normalize(dvec3(frame.z)))),
+              kTolerances * tolerance * (1.0 + length / height));
+  }
+  EXPECT_GT(slanting, 1000U);
+}
+
 }  // namespace
 }  // namespace trisect
