@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "app/bake/subpatch_fit.h"
 #include "app/base/interval.h"
 #include "app/dispatch/kernel_float.h"
 #include "app/dispatch/trace_settings.h"
@@ -132,6 +133,24 @@ TEST(SubpatchBounds, HoldTheSurface) {
   // samples it is not much larger, so most of the margin is left for points that no test sees.
   EXPECT_LT(most_of_position_error, 0.75);
   EXPECT_LT(most_of_tangent_error, 0.85);
+}
+
+// What the fit is in double precision, the bounds have in single precision, rounded up.
+TEST(SubpatchBounds, AreNoLessThanTheErrorsOfTheirFit) {
+  const SurfaceChoice choice{SURFACE_SPHERE, 0.0, SHELL_NORMAL};
+  const BakedScene scene = baked({"sphere-80", choice});
+  std::size_t rounded = 0;
+  for (const SubpatchBounds& bounds : scene.subpatches) {
+    const Triangle& tri = scene.triangles[bounds.triangle];
+    const Fit fit =
+        fit_subpatch({shape_of(choice), to_double(tri), patch_of(choice.shell, tri), dvec3(0.0)},
+                     {dvec3(bounds.sub_triangle), bounds.sub_triangle.w});
+    ASSERT_GE(double{bounds.corner.w}, fit.position_error);
+    ASSERT_GE(double{bounds.edge.w}, fit.tangent_error);
+    ASSERT_GE(double{bounds.gradient_lipschitz}, fit.gradient_lipschitz);
+    if (double{static_cast<float>(fit.position_error)} < fit.position_error) ++rounded;
+  }
+  EXPECT_GT(rounded, 100U);
 }
 
 // The kernel's bounds for nonsmooth subpatches, over nodes of all sizes.
