@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -60,7 +61,15 @@ TEST(Triangulate, CoversConcavePolygonsOfBothOrientations) {
 }
 
 TEST(Triangulate, CoversACornerInTheMiddleOfAnEdge) {
-  expect_exact_cover({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}});
+  std::vector<dvec3> square{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
+  for (std::size_t first = 0; first < square.size(); ++first) {
+    expect_exact_cover(square);
+    // It is no corner of a triangle that has no area.
+    for (const auto& [a, b, c] : triangulate(square)) {
+      EXPECT_GT(cross_z(square[a], square[b], square[c]), 0.0) << first;
+    }
+    std::rotate(square.begin(), square.begin() + 1, square.end());
+  }
 }
 
 TEST(Triangulate, CoversRandomStars) {
