@@ -15,7 +15,7 @@ std::string number_text(double value);
 // The number that a text is from its first character to its last, as C writes it; nothing for any
 // other text, and for a number that the type cannot hold.
 template <typename Number>
-std::optional<Number> number_in(std::string_view text) {
+std::optional<Number> parse_number(std::string_view text) {
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool is_number = error == std::errc() && end == text.data() + text.size();

@@ -19,7 +19,7 @@ template <typename Number>
 CLI::Validator number_from_to(Number low, Number high) {
   return CLI::Validator(
       [low, high](const std::string& text) -> std::string {
-        const std::optional<Number> value = number_in<Number>(text);
+        const std::optional<Number> value = parse_number<Number>(text);
         if (value && *value >= low && *value <= high) return {};
         return fmt::format("'{}' is not a {}number from {} to {}", text,
                            std::is_integral_v<Number> ? "whole " : "", low, high);

@@ -17,7 +17,7 @@ void take_threads_setting() {
   const char* setting = std::getenv("TRISECT_THREADS");
   if (setting == nullptr) return;
   const std::string_view text = setting;
-  const std::optional<unsigned> threads = number_in<unsigned>(text);
+  const std::optional<unsigned> threads = parse_number<unsigned>(text);
   if (!threads || *threads < 1 || *threads > most) {
     throw UsageError(
         fmt::format("TRISECT_THREADS is '{}': a whole number from 1 to {} is wanted.", text, most));

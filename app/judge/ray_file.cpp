@@ -54,7 +54,7 @@ std::string_view trimmed(std::string_view text) {
 }
 
 double number_of_cell(const fs::path& path, std::size_t line, std::string_view cell) {
-  const std::optional<double> number = number_in<double>(cell);
+  const std::optional<double> number = parse_number<double>(cell);
   if (!number) refuse(path, line, cell, "a number");
   return *number;
 }
@@ -181,7 +181,7 @@ std::vector<FileHit> read_hits(const fs::path& path) {
     }
     hit.triangle = kSomeTriangle;
     if (!cells[3].empty()) {
-      const auto number = number_in<double>(cells[3]);
+      const auto number = parse_number<double>(cells[3]);
       if (!number || !(*number >= 0.0 && *number < kSomeTriangle) ||
           *number != std::floor(*number)) {
         refuse(path, line, cells[3], "the number of a triangle");

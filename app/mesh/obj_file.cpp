@@ -69,7 +69,7 @@ std::optional<double> number_of(std::string_view word) {
 
 std::optional<int> whole_number(std::string_view word) {
   if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
-  return number_in<int>(word);
+  return parse_number<int>(word);
 }
 
 // A corner of a face as the file writes it: v, v/vt, v//vn or v/vt/vn, where what follows v may be

@@ -27,11 +27,11 @@ void read_materials(std::string_view file_text, std::map<std::string, glm::vec3>
     } else if (lines.key() == "map_Kd") {
       textured.insert(material);
     } else if (lines.key() == "Kd" && !material.empty()) {
-      const std::optional<float> red = number_in<float>(take_word(words));
+      const std::optional<float> red = parse_number<float>(take_word(words));
       if (!red) continue;
       // The others are the same if they are left out.
-      const float green = number_in<float>(take_word(words)).value_or(*red);
-      colors[material] = {*red, green, number_in<float>(take_word(words)).value_or(*red)};
+      const float green = parse_number<float>(take_word(words)).value_or(*red);
+      colors[material] = {*red, green, parse_number<float>(take_word(words)).value_or(*red)};
     }
   }
   for (const std::string& name : textured) colors.erase(name);

@@ -22,7 +22,7 @@ constexpr std::size_t kIndent = 2;
 
 std::size_t columns_wanted() {
   if (const char* text = std::getenv("COLUMNS"); text != nullptr) {
-    const std::optional<std::size_t> columns = number_in<std::size_t>(text);
+    const std::optional<std::size_t> columns = parse_number<std::size_t>(text);
     if (columns && *columns > 0) return *columns;
   }
   winsize size{};

@@ -87,8 +87,8 @@ void for_rays(std::mt19937_64& random, Use&& use) {
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     for (int i = 0; i < 20000; ++i) {
       const SubpatchBounds& bounds = scene.subpatches[random() % scene.subpatches.size()];
-      if (bounds.skip > 0 || bounds.is_flat == 1 || bounds.gradient_lipschitz == NONSMOOTH)
-        continue;
+      const bool is_smooth = bounds.is_flat == 0 && bounds.gradient_lipschitz != NONSMOOTH;
+      if (bounds.skip > 0 || !is_smooth) continue;
       dvec3 l(unit(random), unit(random), unit(random));
       const int k = static_cast<int>(random() % 3);
       const auto kind = random() % 4;
