@@ -144,6 +144,29 @@ TEST(GltfFile, ReadsTrianglesAsTextAndAsBinary) {
   }
 }
 
+// Position and normal of a vertex one after the other, in one view that both accessors share.
+TEST(GltfFile, ReadsInterleavedVertices) {
+  GltfText file;
+  const std::vector<float> vertices{0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 1, 0, 0, 1, 0, 1, 0, 0};
+  const std::size_t view = file.add_view(as_bytes(vertices));
+  file.root()["bufferViews"][view]["byteStride"] = 24;
+  for (const int offset : {0, 12}) {
+    file.root()["accessors"].push_back({{"bufferView", view},
+                                        {"byteOffset", offset},
+                                        {"componentType", 5126},
+                                        {"type", "VEC3"},
+                                        {"count", 3}});
+  }
+  file.add_mesh({{"attributes", {{"POSITION", 0}, {"NORMAL", 1}}}});
+  file.add_node({{"mesh", 0}});
+  const PolygonModel model = parse_bytes(file.text());
+  EXPECT_EQ(corner_points(model), (std::vector<dvec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+  ASSERT_EQ(model.corners.size(), 3U);
+  EXPECT_EQ(model.normals[model.corners[0].normal], dvec3(0, 0, 1));
+  EXPECT_EQ(model.normals[model.corners[1].normal], dvec3(0, 1, 0));
+  EXPECT_EQ(model.normals[model.corners[2].normal], dvec3(1, 0, 0));
+}
+
 TEST(GltfFile, KeepsTheNamesOfMeshes) {
   GltfText file = square_file(6);
   file.root()["meshes"][0]["name"] = "first";
