@@ -57,7 +57,7 @@ build() { # FOLDER PROGRAM...
 # All tests in one process, but those that measure or limit what a process of their own takes.
 all_tests=('unit_tests:*-FailingAllocations.*:ModelFile.ReadsInSixTimesItsSize:Memory.*' 'gpu_tests:*')
 
-# Whether tests of a program pass. The name of the first that fails, or `time` or a signal, is left in $failed.
+# Whether tests of a program pass. $failed is left as the name of the first that fails, or how they ended.
 passes() { # FOLDER PROGRAM FILTER
   local code=0
   timeout 1800 "$1/build/release/$2" --gtest_fail_fast --gtest_brief=1 --gtest_filter="$3" >"$1/test.log" 2>&1 || code=$?

@@ -83,6 +83,23 @@ dvec3 random_weights(std::mt19937_64& random) {
   return {1.0 - a, a * b, a * (1.0 - b)};
 }
 
+// How far S and its tangents are from those of T + q D at weights w.
+struct QuadraticErrors {
+  double position;
+  double tangents;
+};
+QuadraticErrors errors_of(const DisplacementQuadratic& q, const in_double::Shape& shape,
+                          const in_double::Triangle& tri, const Patch& corners, const dvec3& w) {
+  const in_double::Displacement sigma = in_double::displacement_and_derivatives(shape, tri, w);
+  const dvec3 D = in_double::shell_direction(shape.shell, tri, w);
+  const double e = sigma.s - q.blossom(w, w);
+  const double off_u = sigma.u - 2.0 * q.blossom(w, {-1.0, 1.0, 0.0});
+  const double off_v = sigma.v - 2.0 * q.blossom(w, {-1.0, 0.0, 1.0});
+  return {std::abs(e) * glm::length(D),
+          std::max(glm::length(D * off_u + (corners.D[1] - corners.D[0]) * e),
+                   glm::length(D * off_v + (corners.D[2] - corners.D[0]) * e))};
+}
+
 // Points of a subpatch and of its overlap: the surface and its tangents differ from those of T + q
 // D by no more than the errors, and the surface lies in the ball.
 TEST(SubpatchBounds, HoldTheSurface) {
@@ -107,24 +124,16 @@ TEST(SubpatchBounds, HoldTheSurface) {
       for (int i = 0; i < 10; ++i) {
         const dvec3 l = random_weights(random);
         const dvec3 w = weights_of(bounds, l * (1.0 + 3.0 * OVERLAP) - dvec3(double{OVERLAP}));
-        const in_double::Displacement sigma =
-            in_double::displacement_and_derivatives(shape, tri, w);
-        const dvec3 D = in_double::shell_direction(shape.shell, tri, w);
-        const double e = sigma.s - q.blossom(w, w);
-        ASSERT_LE(std::abs(e) * glm::length(D), bounds.corner.w)
-            << choice.model << " subpatch " << k;
+        const QuadraticErrors errors = errors_of(q, shape, tri, corners, w);
+        ASSERT_LE(errors.position, bounds.corner.w) << choice.model << " subpatch " << k;
         const dvec3 S = in_double::surface_point(shape, tri, w);
         ASSERT_LE(glm::distance(S, dvec3(bounds.ball)), bounds.ball.w)
             << choice.model << " subpatch " << k;
         if (bounds.gradient_lipschitz == NONSMOOTH) continue;
-        const double off_u = sigma.u - 2.0 * q.blossom(w, {-1.0, 1.0, 0.0});
-        const double off_v = sigma.v - 2.0 * q.blossom(w, {-1.0, 0.0, 1.0});
-        const double off = std::max(glm::length(D * off_u + (corners.D[1] - corners.D[0]) * e),
-                                    glm::length(D * off_v + (corners.D[2] - corners.D[0]) * e));
-        ASSERT_LE(off, bounds.edge.w) << choice.model << " subpatch " << k;
+        ASSERT_LE(errors.tangents, bounds.edge.w) << choice.model << " subpatch " << k;
         most_of_position_error =
-            std::max(most_of_position_error, std::abs(e) * glm::length(D) / bounds.corner.w);
-        most_of_tangent_error = std::max(most_of_tangent_error, off / bounds.edge.w);
+            std::max(most_of_position_error, errors.position / bounds.corner.w);
+        most_of_tangent_error = std::max(most_of_tangent_error, errors.tangents / bounds.edge.w);
       }
     }
   }
@@ -244,25 +253,18 @@ TEST(SphereRange, FitsTheNodesOfNonsmoothSubpatches) {
             in_float::sheared_patch(frame, in_float::rotated_patch(frame, SHELL_HEIGHT, single)),
             node, in_float::position_tolerance(frame, single), fit, evaluations))
             << "triangle " << bounds.triangle << " level " << level << " point " << i;
-        const DisplacementQuadratic q{dvec3(fit.corner), dvec3(fit.edge)};
-        const in_double::Displacement sigma =
-            in_double::displacement_and_derivatives(shape, tri, w);
-        const dvec3 D = in_double::shell_direction(SHELL_HEIGHT, tri, w);
-        const double e = sigma.s - q.blossom(w, w);
+        const QuadraticErrors errors =
+            errors_of({dvec3(fit.corner), dvec3(fit.edge)}, shape, tri, corners, w);
         // What rounds in sigma itself, where lines begin to miss a sphere.
         constexpr double rounding = 1e-5;
-        ASSERT_LE(std::abs(e) * glm::length(D), fit.position_error + rounding * scene.radius)
+        ASSERT_LE(errors.position, fit.position_error + rounding * scene.radius)
             << "triangle " << bounds.triangle << " level " << level;
         if (fit.tangent_error >= in_float::UNBOUNDED) {
           ++of_unknown_gradient;
           continue;
         }
         ++of_known_gradient;
-        const double off_u = sigma.u - 2.0 * q.blossom(w, {-1.0, 1.0, 0.0});
-        const double off_v = sigma.v - 2.0 * q.blossom(w, {-1.0, 0.0, 1.0});
-        const double off = std::max(glm::length(D * off_u + (corners.D[1] - corners.D[0]) * e),
-                                    glm::length(D * off_v + (corners.D[2] - corners.D[0]) * e));
-        ASSERT_LE(off, fit.tangent_error + rounding * scene.radius)
+        ASSERT_LE(errors.tangents, fit.tangent_error + rounding * scene.radius)
             << "triangle " << bounds.triangle << " level " << level;
       }
     }

@@ -27,7 +27,8 @@ double least_of(const dvec3& v) {
   return std::min({v.x, v.y, v.z});
 }
 
-// A ray at the point of a subpatch's surface that has the weights l within the subpatch.
+// A ray at the point of a subpatch's surface that has the weights l within the subpatch, from a
+// point that lies `before` before it.
 struct AimedRay {
   const BakedScene& scene;
   const SubpatchBounds& bounds;
@@ -40,11 +41,9 @@ struct AimedRay {
   in_float::FramedPatch framed{};
   float tolerance = 0.0F;
 
-  AimedRay(const BakedScene& in, const SubpatchBounds& at, const dvec3& weights,
-           std::mt19937_64& random)
+  AimedRay(const BakedScene& in, const SubpatchBounds& at, const dvec3& weights, const dvec3& view,
+           double before)
       : scene(in), bounds(at), l(weights) {
-    const dvec3 view = stress::any_direction(random);
-    const double before = std::uniform_real_distribution<double>(0.5, 3.0)(random) * scene.radius;
     frame = in_float::ray_frame(vec3(point_at(w) - view * before), vec3(view));
     framed = in_float::sheared_patch(frame, in_float::rotated_patch(frame, shape.shell, tri));
     tolerance = in_float::position_tolerance(frame, tri);
@@ -99,7 +98,9 @@ void for_rays(std::mt19937_64& random, Use&& use) {
         l[k] = kind == 2 ? std::round(l[k] * 8.0) / 8.0 : -std::pow(10.0, -6.0 * unit(random));
         l[(k + 1) % 3] += old - l[k];
       }
-      use(AimedRay(scene, bounds, l, random));
+      const dvec3 view = stress::any_direction(random);
+      const double before = (0.5 + 2.5 * unit(random)) * scene.radius;
+      use(AimedRay(scene, bounds, l, view, before));
       if (testing::Test::HasFatalFailure()) return;
     }
   }
@@ -188,42 +189,31 @@ TEST(RobustAnswers, OfFlatTrianglesAreHitsAtAnySlant) {
       bake_with_subpatches(test::load_asset("teapot"), {SURFACE_FLAT, 0.0, SHELL_NORMAL});
   std::size_t slanting = 0;
   for (int i = 0; i < 20000; ++i) {
-    const auto triangle = static_cast<uint>(random() % scene.triangles.size());
-    const Triangle& tri = scene.triangles[triangle];
+    const SubpatchBounds& bounds = scene.subpatches[random() % scene.subpatches.size()];
     const dvec3 weights = glm::max(dvec3(unit(random), unit(random), unit(random)), 1e-2);
-    const dvec3 w = weights / (weights.x + weights.y + weights.z);
-    const dvec3 point =
-        dvec3(tri.Position[0]) * w.x + dvec3(tri.Position[1]) * w.y + dvec3(tri.Position[2]) * w.z;
     // From all but level to steep.
-    const dvec3 normal(tri.TriNormal);
+    const dvec3 normal(scene.triangles[bounds.triangle].TriNormal);
     const dvec3 view = glm::normalize(stress::across(normal, random) +
                                       normal * std::pow(10.0, -5.0 * unit(random)));
-    const in_float::RayFrame frame =
-        in_float::ray_frame(vec3(point - view * scene.radius), vec3(view));
-    const in_float::FramedPatch framed =
-        in_float::sheared_patch(frame, in_float::rotated_patch(frame, SHELL_NORMAL, tri));
-    const float tolerance = in_float::position_tolerance(frame, tri);
+    const AimedRay ray(scene, bounds, weights / (weights.x + weights.y + weights.z), view,
+                       scene.radius);
     // How thin it looks.
-    const glm::dvec2 u(framed.P1 - framed.P0);
-    const glm::dvec2 v(framed.P2 - framed.P0);
+    const glm::dvec2 u(ray.framed.P1 - ray.framed.P0);
+    const glm::dvec2 v(ray.framed.P2 - ray.framed.P0);
     const double length = std::max(glm::length(u), glm::length(v));
     const double height = std::abs(u.x * v.y - u.y * v.x) / length;
     in_float::Hit hit{};
     hit.z = in_float::NO_HIT_YET;
     hit.triangle = NO_TRIANGLE;
-    in_float::intersect_flat(framed, triangle, 0, tolerance, 0.0F, hit);
-    if (height > 4.0 * tolerance) {
-      ASSERT_EQ(hit.triangle, triangle) << height / tolerance;
-      if (height < 100.0 * tolerance) ++slanting;
+    in_float::intersect_flat(ray.framed, bounds.triangle, 0, ray.tolerance, 0.0F, hit);
+    if (height > 4.0 * ray.tolerance) {
+      ASSERT_EQ(hit.triangle, bounds.triangle) << height / ray.tolerance;
+      if (height < 100.0 * ray.tolerance) ++slanting;
     }
-    if (hit.triangle != triangle) continue;
-    const dvec3 h(hit.weights);
-    const dvec3 met = dvec3(tri.Position[0]) * h.x + dvec3(tri.Position[1]) * h.y +
-                      dvec3(tri.Position[2]) * h.z - dvec3(frame.anchor);
+    if (hit.triangle == NO_TRIANGLE) continue;
     // Its weights are quotients of areas, which round relative to the triangle's length: what that
     // moves is so much larger where the triangle looks thin.
-    ASSERT_LT(glm::length(glm::cross(met, glm::normalize(dvec3(frame.z)))),
-              kTolerances * tolerance * (1.0 + length / height));
+    ASSERT_LT(ray.across(dvec3(hit.weights)), kTolerances * (1.0 + length / height));
   }
   EXPECT_GT(slanting, 1000U);
 }
