@@ -21,6 +21,9 @@ const uint UNDECIDED = 2u;  // neither a root nor that there is none
 const int MOST_STEPS = 10;
 // newton() ends with a step of at most this part of the node's size; it leaves an error of the order of its square.
 const real SMALL_STEP = real(1e-4);
+// Where f is as small as its roundings already, a last step of up to this part of the node's size is taken: what the surface
+// bends over it is less than the tolerance. A longer one, on a ray that all but touches the surface, would lead off the ray.
+const real LAST_STEP = real(0.01);
 // No step is smaller than the roundings of a weight.
 const real WEIGHT_ROUNDINGS = real(2.4e-7);
 // Beside the curves on which lines begin to miss a vertex's sphere the roundings of sigma keep Newton's steps from getting
@@ -197,6 +200,11 @@ uint newton(Shape shape, Triangle tri, SubpatchBounds bounds, NewtonQuery query,
     // Where the ray grazes the surface the rounding of f alone makes steps that never get small: there a small f is enough.
     bool exact = largest(f) <= real(0.5) * query.tolerance;
     bool held = least(inside) < real(0.0) && !exact;
+    if (exact && step > LAST_STEP * abs(query.node.size)) {
+      du = real(0.0);
+      dv = real(0.0);
+      target = from;
+    }
     if (held) {
       if (query.certified && newton_excludes(query.mean, f, weights_in(query.node, from), real(1e-5))) return PROVEN_MISS;
       target = weights_of(query.node, held_inside(inside));
@@ -305,6 +313,11 @@ void intersect_flat(FramedPatch framed, uint triangle, uint subpatch, real toler
   if (!(abs(det) > tolerance * max(largest(u), largest(v)))) return;
   real a = -cross2(P, v) / det;
   real b = cross2(P, u) / det;
+  // The areas round relative to the triangle's length, which moves the root in a triangle that looks thin by much more than
+  // its coordinates round. One step of Newton's method undoes that.
+  vec2 f = P + u * a + v * b;
+  a -= cross2(f, v) / det;
+  b += cross2(f, u) / det;
   vec3 w = vec3(real(1.0) - a - b, a, b);
   bool inside = least(w) >= real(0.0);
   vec3 held = inside ? w : closest_on_border(vec3(1.0, 0.0, 0.0), w, P, u, v);

@@ -67,6 +67,22 @@ struct AimedRay {
     return std::abs(glm::dot(glm::normalize(normal), glm::normalize(dvec3(frame.z))));
   }
   [[nodiscard]] bool is_aimed_into_subpatch() const { return least_of(l) >= 0.0; }
+
+  // The hit in a subpatch of the scene that is smooth, beyond `nearest`, by the search alone.
+  [[nodiscard]] in_float::Hit search(const SubpatchBounds& in, float nearest) const {
+    const Triangle& of = scene.triangles[in.triangle];
+    in_float::Traversal traversal{};
+    traversal.hit.z = in_float::NO_HIT_YET;
+    traversal.hit.triangle = NO_TRIANGLE;
+    traversal.path = in_float::WHOLE;
+    traversal.steps = 1 << 20;
+    in_float::search_subpatch(
+        shape, false, of, in, 0, frame,
+        in_float::sheared_patch(frame, in_float::rotated_patch(frame, shape.shell, of)),
+        in_float::position_tolerance(frame, of), nearest, traversal);
+    EXPECT_EQ(traversal.path, in_float::WHOLE);
+    return traversal.hit;
+  }
 };
 
 // Calls use(ray) with rays at points within subpatches, on their borders, on those of the nodes in
@@ -84,7 +100,7 @@ void for_rays(std::mt19937_64& random, Use&& use) {
     SCOPED_TRACE(choice.model);
     const BakedScene scene = bake_with_subpatches(test::load_asset(choice.model), choice.choice);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
-    for (int i = 0; i < 20000; ++i) {
+    for (int i = 0; i < 100000; ++i) {
       const SubpatchBounds& bounds = scene.subpatches[random() % scene.subpatches.size()];
       const bool is_smooth = bounds.is_flat == 0 && bounds.gradient_lipschitz != NONSMOOTH;
       if (bounds.skip > 0 || !is_smooth) continue;
@@ -149,24 +165,13 @@ TEST(RobustAnswers, OfTheSearchAreTheFirstRootOfTheSubpatch) {
     const bool behind = random() % 4 == 0;
     const auto nearest =
         static_cast<float>(behind ? at + 0.01 * ray.scene.radius : at - 0.5 * ray.scene.radius);
-    in_float::Traversal traversal{};
-    traversal.hit.z = in_float::NO_HIT_YET;
-    traversal.hit.triangle = NO_TRIANGLE;
-    traversal.path = in_float::WHOLE;
-    traversal.steps = 1 << 20;
-    in_float::search_subpatch(ray.shape, false, ray.tri, ray.bounds, 0, ray.frame, ray.framed,
-                              ray.tolerance, nearest, traversal);
-    ASSERT_EQ(traversal.path, in_float::WHOLE);
-    const in_float::Hit& hit = traversal.hit;
+    in_float::Hit hit = ray.search(ray.bounds, nearest);
     if (hit.triangle != NO_TRIANGLE) {
       ++hits;
       const dvec3 weights(hit.weights);
       ASSERT_GE(hit.z, nearest);
       ASSERT_GE(least_of(weights), 0.0);
-      // The last step toward a root where the ray is all but tangent is long, and leaves more.
-      if (ray.cosine(weights) > 1e-3) {
-        ASSERT_LT(ray.across(weights), kTolerances);
-      }
+      ASSERT_LT(ray.across(weights), kTolerances);
     }
     // Where it is all but tangent its root may be anywhere along it, or none.
     if (behind || !ray.is_aimed_into_subpatch() || least_of(ray.w) < 0.0 ||
@@ -174,6 +179,13 @@ TEST(RobustAnswers, OfTheSearchAreTheFirstRootOfTheSubpatch) {
       return;
     }
     ++aimed;
+    if (least_of(ray.w) == 0.0) {
+      // Displaced by roundings the border is off the ray; then the neighbour has the root.
+      for (const SubpatchBounds& bounds : ray.scene.subpatches) {
+        if (bounds.skip > 0 || hit.triangle != NO_TRIANGLE) continue;
+        hit = ray.search(bounds, nearest);
+      }
+    }
     ASSERT_NE(hit.triangle, NO_TRIANGLE);
     ASSERT_LT(hit.z, at + kTolerances * ray.tolerance / ray.cosine(ray.w));
   });
@@ -208,12 +220,12 @@ TEST(RobustAnswers, OfFlatTrianglesAreHitsAtAnySlant) {
     in_float::intersect_flat(ray.framed, bounds.triangle, 0, ray.tolerance, 0.0F, hit);
     if (height > 4.0 * ray.tolerance) {
       ASSERT_EQ(hit.triangle, bounds.triangle) << height / ray.tolerance;
-      if (height < 100.0 * ray.tolerance) ++slanting;
+      if (height < 1000.0 * ray.tolerance) ++slanting;
     }
-    if (hit.triangle == NO_TRIANGLE) continue;
-    // Its weights are quotients of areas, which round relative to the triangle's length: what that
-    // moves is so much larger where the triangle looks thin.
-    ASSERT_LT(ray.across(dvec3(hit.weights)), kTolerances * (1.0 + length / height));
+    // Where it looks even thinner the determinant itself is mostly roundings.
+    if (height > 100.0 * ray.tolerance) {
+      ASSERT_LT(ray.across(dvec3(hit.weights)), kTolerances) << height / ray.tolerance;
+    }
   }
   EXPECT_GT(slanting, 1000U);
 }
