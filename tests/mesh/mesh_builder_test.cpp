@@ -293,6 +293,22 @@ TEST(BuildMesh, WeldsVerticesThatAreCloseOnDemand) {
   EXPECT_EQ(welded.mesh.positions[1], dvec3(1, 0, 0));
 }
 
+TEST(BuildMesh, WeldsVerticesInAnyTwoCellsThatTouch) {
+  const double distance = 0.125;
+  for (int i = 0; i < 27; ++i) {
+    // On both sides of the face, edge or corner of the cell of (8.5, 8.5, 8.5), or twice within it.
+    const dvec3 side(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    std::string text = "v 0 0 0\nv 1 0 0\nv 3 0 0\nv 0 5 0\n";
+    for (const double at : {0.45, 0.55}) {
+      const dvec3 p = (dvec3(8.5) + side * at) * distance;
+      text +=
+          "v " + std::to_string(p.x) + ' ' + std::to_string(p.y) + ' ' + std::to_string(p.z) + '\n';
+    }
+    text += "f 1 2 5\nf 3 4 6\n";
+    EXPECT_EQ(build(text, {.weld = distance}).report.vertices, 5U) << i;
+  }
+}
+
 TEST(BuildMesh, RepairsWindingOnDemand) {
   const std::string cube = kCube;
   // One face turned: its two triangles.
