@@ -16,7 +16,16 @@ list=tests/mutations/mutations.json
 # Lines of a name, a tab, and what noticed it, or nothing if nothing did.
 results=build/mutations/results
 mkdir -p build/mutations
-trap 'kill $(jobs -p) 2>/dev/null || true' EXIT
+# What this started, and what that did: builds and tests too.
+stop() { # PID
+  local child
+  for child in $(pgrep -P "$1"); do
+    stop "$child"
+    kill "$child" 2>/dev/null || true
+  done
+}
+trap 'stop $$' EXIT
+trap 'exit 130' INT TERM
 mapfile -t names < <(jq -r '.[].name' $list)
 if [ $# = 0 ]; then
   wanted=("${names[@]}")

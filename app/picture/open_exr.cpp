@@ -3,10 +3,14 @@
 #include <ImfHeader.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "app/base/message.h"
 #include "app/frame/image_part.h"
@@ -14,20 +18,115 @@
 namespace trisect {
 namespace {
 
-// Refuses a file whose header claims an attribute that is larger than the file, for which OpenEXR
-// would take memory: each is a name, a type, a size and so many bytes, and an empty name ends them.
-// Other mistakes are left to OpenEXR.
+// Types of values of one size, and their bytes: "OpenEXR File Layout", openexr.com.
+constexpr std::array<std::pair<std::string_view, std::streamoff>, 24> kSizes{{
+    {"box2f", 16},
+    {"box2i", 16},
+    {"chromaticities", 32},
+    {"compression", 1},
+    {"deepImageState", 1},
+    {"double", 8},
+    {"envmap", 1},
+    {"float", 4},
+    {"int", 4},
+    {"keycode", 28},
+    {"lineOrder", 1},
+    {"m33d", 72},
+    {"m33f", 36},
+    {"m44d", 128},
+    {"m44f", 64},
+    {"rational", 8},
+    {"tiledesc", 9},
+    {"timecode", 8},
+    {"v2d", 16},
+    {"v2f", 8},
+    {"v2i", 8},
+    {"v3d", 24},
+    {"v3f", 12},
+    {"v3i", 12},
+}};
+
+template <typename Number>
+Number number_at(std::string_view bytes, std::size_t at) {
+  Number number{};
+  std::memcpy(&number, bytes.data() + at, sizeof(number));
+  return number;
+}
+
+// Whether a list of channels ends where its bytes do: names, each with 16 bytes, and an empty one.
+bool is_channel_list(std::string_view bytes) {
+  constexpr std::size_t of_channel = 16;
+  while (!bytes.empty() && bytes[0] != '\0') {
+    const std::size_t name = bytes.find('\0');
+    if (name == std::string_view::npos || bytes.size() - name - 1 < of_channel) return false;
+    bytes.remove_prefix(name + 1 + of_channel);
+  }
+  return bytes.size() == 1;
+}
+
+// Whether a small picture has the bytes for its pixels: width, height, and four each.
+bool is_preview(std::string_view bytes) {
+  if (bytes.size() < 8) return false;
+  const uint64_t width = number_at<uint32_t>(bytes, 0);
+  const uint64_t height = number_at<uint32_t>(bytes, 4);
+  const uint64_t pixels = (bytes.size() - 8) / 4;
+  return (bytes.size() - 8) % 4 == 0 && (width == 0 || height == pixels / width) &&
+         width * height == pixels;
+}
+
+// Whether texts, each after its length, are as many bytes as there are.
+bool is_list_of_texts(std::string_view bytes) {
+  while (!bytes.empty()) {
+    if (bytes.size() < 4) return false;
+    const auto length = number_at<uint32_t>(bytes, 0);
+    if (length > bytes.size() - 4) return false;
+    bytes.remove_prefix(4 + length);
+  }
+  return true;
+}
+
+// Whether a value at the file's place, of so many bytes, can be one of its type. OpenEXR reads as
+// many as the type has, whatever the file says, and takes for the next attribute what comes then.
+bool has_size_of_type(std::ifstream& file, const std::string& type, std::streamoff size) {
+  for (const auto& [name, bytes] : kSizes) {
+    if (name == type) return size == bytes;
+  }
+  if (type == "floatvector") return size % 4 == 0;
+  if (type != "chlist" && type != "preview" && type != "stringvector") return true;
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  file.read(bytes.data(), size);
+  file.seekg(-size, std::ios::cur);
+  if (type == "chlist") return is_channel_list(bytes);
+  return type == "preview" ? is_preview(bytes) : is_list_of_texts(bytes);
+}
+
+// Refuses a file whose header has an attribute that is larger than the file, or not as large as
+// its type, for which OpenEXR would take memory: each is a name, a type, a size and so many bytes;
+// an empty name ends a header, an empty header those of a file of many parts. Other mistakes are
+// left to OpenEXR.
 void expect_attributes(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   const std::streamoff end = file.tellg();
-  constexpr std::streamoff magic_and_version = 8;
-  file.seekg(magic_and_version);
+  file.seekg(4);
+  uint32_t version = 0;
+  file.read(reinterpret_cast<char*>(&version), sizeof(version));
+  constexpr uint32_t many_parts = 0x1000;
   std::string name;
   std::string type;
   int32_t size = 0;
-  while (std::getline(file, name, '\0') && !name.empty() && std::getline(file, type, '\0') &&
-         file.read(reinterpret_cast<char*>(&size), sizeof(size))) {
-    if (size < 0 || size > end - file.tellg()) {
+  bool is_first = true;
+  while (std::getline(file, name, '\0')) {
+    if (name.empty()) {
+      if (is_first || (version & many_parts) == 0) return;
+      is_first = true;
+      continue;
+    }
+    is_first = false;
+    if (!std::getline(file, type, '\0') ||
+        !file.read(reinterpret_cast<char*>(&size), sizeof(size))) {
+      return;
+    }
+    if (size < 0 || size > end - file.tellg() || !has_size_of_type(file, type, size)) {
       throw std::runtime_error("its header is damaged or cut off");
     }
     file.seekg(size, std::ios::cur);
