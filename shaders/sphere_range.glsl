@@ -77,15 +77,18 @@ Range square_range(Corners D, vec3 n) {
   return between(max(DD.lo, range_square(point_range(above)).lo), DD.hi);
 }
 
-// Range of the angle from b to x, both seen from a vertex, that grows backward about the axis. x may be off by `error`,
-// which turns it by no more than pi / 2 times error / |x|. A corner at the vertex itself has no angle and counts as 0, the
-// angle of an edge, which the other two corners span then.
+// The angle, no less, by which a vector of a size may turn if it is off by `error`: pi / 2 times error / size, or any if
+// that is no shorter.
+real most_turned(real error, real size) { return error < size ? real(2.0) * error / size : real(4.0); }
+
+// Range of the angle from b to x, both seen from a vertex, that grows backward about the axis. x may be off by `error`. A
+// corner at the vertex itself has no angle and counts as 0, the angle of an edge, which the other two corners span then.
 Range angle_range(vec3 x, real error, vec3 b, vec3 axis) {
   real size = AngleBetween(x, b);
   real angle = dot3(cross3(x, b), axis) < real(0.0) ? -size : size;
   // The sine and the cosine are off by 4 and 3 roundings of |x| |b|, the angle by half a unit in the last place of pi.
   return range_grown(point_range(angle),
-                     FOR_PROOF(GAMMA(16) + (size > real(0.0) ? real(2.0) * error / length3(x) : real(0.0))));
+                     FOR_PROOF(GAMMA(16) + (size > real(0.0) ? most_turned(error, length3(x)) : real(0.0))));
 }
 
 // Range of curvature_blend at points x seen from the vertex: a convex sub-triangle spans the angles of its corners. It is

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -16,20 +18,33 @@ namespace trisect {
 namespace {
 
 using glm::dvec3;
+using glm::dvec4;
 
-// A quarter of a quarter ... of the triangle, so many times divided, any of them.
+// A quarter of a quarter ... of the triangle, so many times divided, any of them or the one at a
+// vertex, as it is or enlarged, as nodes and cones are: then some of it lies beyond the triangle's
+// border, and about a vertex.
 CornerWeights random_sub_triangle(std::mt19937_64& random, int levels) {
   in_double::SubTriangle sub_triangle = kWholeTriangle;
-  for (int k = 0; k < levels; ++k) sub_triangle = quarter(sub_triangle)[random() % 4];
-  return corner_weights(sub_triangle);
+  const bool is_at_vertex = random() % 4 == 0;
+  const std::size_t vertex = random() % 3;
+  for (int k = 0; k < levels; ++k) {
+    sub_triangle = quarter(sub_triangle)[is_at_vertex ? vertex : random() % 4];
+  }
+  const std::array<double, 3> margins{0.0, double{OVERLAP}, double{CONE_MARGIN}};
+  return corner_weights(in_double::enlarged(sub_triangle, margins[random() % 3]));
 }
 
-// A point of a sub-triangle, each as likely as any other, in weights of the triangle.
+// A point of a sub-triangle, in weights of the triangle: any, or on its border.
 in_long_double::vec3 random_point(std::mt19937_64& random, const CornerWeights& weights) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   const long double a = std::sqrt(unit(random));
   const long double b = unit(random);
-  const in_long_double::vec3 l(1.0L - a, a * b, a * (1.0L - b));
+  in_long_double::vec3 l(1.0L - a, a * b, a * (1.0L - b));
+  if (random() % 2 == 0) {
+    const auto k = static_cast<int>(random() % 3);
+    l[(k + 1) % 3] += l[k];
+    l[k] = 0.0L;
+  }
   return in_long_double::vec3(weights[0]) * l.x + in_long_double::vec3(weights[1]) * l.y +
          in_long_double::vec3(weights[2]) * l.z;
 }
@@ -79,6 +94,53 @@ TEST(SphereRanges, HoldSamplesOfRandomPatches) {
   }
   EXPECT_GT(with_derivatives, 10000U);
   EXPECT_GT(smooth, with_derivatives);
+}
+
+// The angle of a point about a vertex, from b toward where it grows, within (-pi, pi].
+double angle_about(const dvec3& x, const dvec3& b, const dvec3& axis) {
+  return std::atan2(glm::dot(glm::cross(x, b), axis), glm::dot(x, b));
+}
+
+// Triangles near a vertex and about it, their corners off by up to an error of any size.
+TEST(SphereRanges, HoldTheBlendAboutAVertex) {
+  std::mt19937_64 random(14);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const auto anywhere = [&] {
+    return dvec3(2.0 * unit(random) - 1.0, 2.0 * unit(random) - 1.0, 0);
+  };
+  std::size_t about_vertex = 0;
+  std::size_t narrow = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double size = std::pow(10.0, -3.0 * unit(random));
+    const dvec3 centre = anywhere() * (random() % 2 == 0 ? size : 1.0);
+    in_double::Corners corners{};
+    for (dvec3* corner : {&corners.a, &corners.b, &corners.c}) *corner = centre + anywhere() * size;
+    corners.error = random() % 2 == 0 ? 0.0 : size * std::pow(10.0, -4.0 * unit(random));
+    const dvec3 b = anywhere();
+    const dvec3 axis(0.0, 0.0, random() % 2 == 0 ? 1.0 : -1.0);
+    const dvec4 data(1.0, 2.0, 0.2 + 2.0 * unit(random), 0.0);
+    const in_double::Range blend = in_double::blend_range(corners, b, axis, data);
+    double least = 10.0;
+    double most = -10.0;
+    for (int k = 0; k < 20; ++k) {
+      const double l0 = unit(random);
+      const double l1 = (1.0 - l0) * unit(random);
+      // On an edge every other time.
+      const double l2 = k % 2 == 0 ? 1.0 - l0 - l1 : 0.0;
+      const dvec3 moved = anywhere() * (corners.error / 2.0);
+      const dvec3 x = (corners.a * l0 + corners.b * l1 + corners.c * l2) / (l0 + l1 + l2) + moved;
+      const double exact = std::clamp(angle_about(x, b, axis) / data.z, in_double::LEAST_BLEND,
+                                      in_double::MOST_BLEND);
+      least = std::min(least, exact);
+      most = std::max(most, exact);
+      ASSERT_LE(blend.lo, exact + 1e-12) << i;
+      ASSERT_GE(blend.hi, exact - 1e-12) << i;
+    }
+    if (least == in_double::LEAST_BLEND && most == in_double::MOST_BLEND) ++about_vertex;
+    if (blend.hi - blend.lo < 0.1) ++narrow;
+  }
+  EXPECT_GT(about_vertex, 1000U);
+  EXPECT_GT(narrow, 1000U);
 }
 
 // s_i at a point by the quadratic formula, from intervals of one point each.
