@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <random>
 #include <vector>
 
+#include "app/bake/subpatch_boxes.h"
 #include "app/bake/subpatch_fit.h"
 #include "app/base/interval.h"
 #include "app/dispatch/kernel_float.h"
@@ -41,6 +44,14 @@ dvec3 weights_of(const SubpatchBounds& bounds, const dvec3& l) {
   return dvec3(bounds.sub_triangle) + l * static_cast<double>(bounds.sub_triangle.w);
 }
 
+// The control points of a subpatch with its overlap.
+std::array<dvec3, 10> control_points_of(const BakedScene& scene, const SubpatchBounds& bounds) {
+  return control_points(
+      patch_of(scene.choice.shell, scene.triangles[bounds.triangle]),
+      {dvec3(glm::vec3(bounds.corner)), dvec3(glm::vec3(bounds.edge))},
+      in_double::with_overlap({dvec3(bounds.sub_triangle), double{bounds.sub_triangle.w}}));
+}
+
 // No line within a subpatch's cone is tangent to the enlarged subpatch: S_u, S_v and the line keep
 // their orientation.
 TEST(SubpatchBounds, LinesWithinItsConeCrossTheSubpatchOneWay) {
@@ -69,6 +80,49 @@ TEST(SubpatchBounds, LinesWithinItsConeCrossTheSubpatchOneWay) {
           ASSERT_GT(glm::dot(normal, d) * side, 0.0)
               << choice.model << " triangle " << bounds.triangle;
         }
+      }
+    }
+  }
+  EXPECT_GT(cones, 1000U);
+}
+
+// Nor is any surface whose tangents are off those of the quadratic by the tangent error, each pair
+// of them by the worst that there is for lines on the cone's border.
+TEST(SubpatchBounds, LinesWithinItsConeCrossWhateverIsWithinTheTangentError) {
+  std::size_t cones = 0;
+  const Choice choice{"teapot", {SURFACE_SPHERE, 0.0, SHELL_NORMAL}};
+  const BakedScene scene = baked(choice);
+  for (const SubpatchBounds& bounds : scene.subpatches) {
+    if (bounds.cone.w == NO_CONE) continue;
+    ++cones;
+    const in_double::SubTriangle large = in_double::enlarged(
+        {dvec3(bounds.sub_triangle), double{bounds.sub_triangle.w}}, double{CONE_MARGIN});
+    const auto [u, v] =
+        tangent_net(patch_of(choice.choice.shell, scene.triangles[bounds.triangle]),
+                    {dvec3(glm::vec3(bounds.corner)), dvec3(glm::vec3(bounds.edge))}, large);
+    const double error = double{bounds.edge.w} * std::abs(large.size) / 3.0;
+    const dvec3 n = glm::normalize(dvec3(bounds.cone));
+    const dvec3 x = glm::normalize(std::abs(n.x) < 0.5 ? glm::cross(n, {1.0, 0.0, 0.0})
+                                                       : glm::cross(n, {0.0, 1.0, 0.0}));
+    const dvec3 y = glm::cross(n, x);
+    const double cosine = bounds.cone.w;
+    const double sine = std::sqrt(1.0 - cosine * cosine);
+    for (int k = 0; k < 16; ++k) {
+      const double angle = k * std::acos(-1.0) / 8.0;
+      const dvec3 d = n * cosine + (x * std::cos(angle) + y * std::sin(angle)) * sine;
+      for (std::size_t i = 0; i < 6; ++i) {
+        // The volume of u, v and d is linear in either of the tangents: each is moved against its
+        // gradient, as far as it may be.
+        const double whole = glm::dot(glm::cross(u[i], v[i]), d);
+        const double side = whole * glm::dot(glm::cross(u[0], v[0]), n) > 0.0 ? 1.0 : -1.0;
+        dvec3 moved_u = u[i];
+        dvec3 moved_v = v[i];
+        for (int step = 0; step < 4; ++step) {
+          moved_u = u[i] - glm::normalize(glm::cross(moved_v, d)) * (side * error);
+          moved_v = v[i] - glm::normalize(glm::cross(d, moved_u)) * (side * error);
+        }
+        const double room = glm::dot(glm::cross(moved_u, moved_v), d) / whole;
+        ASSERT_GT(room, 0.0) << "triangle " << bounds.triangle;
       }
     }
   }
@@ -326,6 +380,64 @@ TEST(ProjectedSubpatch, HoldsTheImageOfTheSurface) {
   EXPECT_GT(points, 10000U);
   // The box is no larger than it must be.
   EXPECT_LT(tightest, 0.5);
+}
+
+// And so are the control points of its overlap, moved by the position error.
+TEST(ProjectedSubpatch, HoldsTheImageOfItsControlPointsWithTheirError) {
+  std::mt19937_64 random(4);
+  std::size_t points = 0;
+  const Choice choice{"sphere-20", {SURFACE_SPHERE, 0.0, SHELL_NORMAL}};
+  const BakedScene scene = baked(choice);
+  for (int view = 0; view < 20; ++view) {
+    TraceSettings settings;
+    settings.width = 640;
+    settings.height = 480;
+    settings.camera.eye = scene.origin + stress::any_direction(random) * scene.radius * 4.0;
+    settings.camera.target = scene.origin;
+    const TraceParams params = make_params(scene, settings);
+    in_float::Kernel kernel = in_float::kernel_of(scene, params, {});
+    for (uint32_t i = 0; i < scene.subpatches.size(); ++i) {
+      const SubpatchBounds& bounds = scene.subpatches[i];
+      const ProjectedSubpatch seen = kernel.project_subpatch(i);
+      for (const dvec3& point : control_points_of(scene, bounds)) {
+        const dvec3 S =
+            point + stress::any_direction(random) * double{bounds.corner.w} - dvec3(params.anchor);
+        const double z = glm::dot(S, dvec3(params.frame_z));
+        ASSERT_GE(z, seen.lines_x.w);
+        const double before = 1.0 + z / params.anchor.w;
+        const glm::dvec2 p(glm::dot(S, dvec3(params.frame_x)) / before / params.frame_x.w + 320.0,
+                           glm::dot(S, dvec3(params.frame_y)) / before / params.frame_y.w + 240.0);
+        ++points;
+        ASSERT_TRUE(kernel.overlaps_rect(seen, glm::vec2(p), glm::vec2(kernel.PIXEL_SLACK)))
+            << "subpatch " << i << " view " << view << " at " << p.x << ", " << p.y;
+      }
+    }
+  }
+  EXPECT_GT(points, 10000U);
+}
+
+// A subpatch's box holds what its control points with their error and its ball have in common, and
+// the slack for a ray's roundings around that.
+TEST(SubpatchBoxes, HoldControlPointsWithTheirErrorAndTheSlack) {
+  for (const Choice& choice : kChoices) {
+    const BakedScene scene = baked(choice);
+    const std::vector<SubpatchBox> boxes = subpatch_boxes(scene);
+    const dvec3 slack(double{BVH_SLACK} * scene.radius);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const SubpatchBounds& bounds = scene.subpatches[i];
+      const dvec3 error(bounds.corner.w);
+      const dvec3 lowest = dvec3(bounds.ball) - dvec3(bounds.ball.w);
+      const dvec3 highest = dvec3(bounds.ball) + dvec3(bounds.ball.w);
+      for (const dvec3& point : control_points_of(scene, bounds)) {
+        const dvec3 lo = glm::clamp(point - error, lowest, highest) - slack;
+        const dvec3 hi = glm::clamp(point + error, lowest, highest) + slack;
+        for (int k = 0; k < 3; ++k) {
+          ASSERT_LE(double{boxes[i].lo[k]}, lo[k]) << choice.model << " subpatch " << i;
+          ASSERT_GE(double{boxes[i].hi[k]}, hi[k]) << choice.model << " subpatch " << i;
+        }
+      }
+    }
+  }
 }
 
 // The bake says how many triangles are done, all of them at the end, and ends where it is told to.
