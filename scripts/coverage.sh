@@ -22,8 +22,8 @@ rows() {
   cat <<END
 # Lines that the tests run
 
-Written by \`scripts/coverage.sh\`: all tests but the slow ones, under g++ $(g++ -dumpfullversion) and gcov. The shaders' surfaces and solvers, which
-the tests run as C++ too, are not counted.
+Written by \`scripts/coverage.sh\`: all tests but the slow ones, under g++ $(g++ -dumpfullversion) and gcov. The shaders'
+surfaces and solvers, which the tests run as C++ too, are not counted.
 
 | folder | lines | run |
 |---|---|---|

@@ -21,8 +21,8 @@ const uint UNDECIDED = 2u;  // neither a root nor that there is none
 const int MOST_STEPS = 10;
 // newton() ends with a step of at most this part of the node's size; it leaves an error of the order of its square.
 const real SMALL_STEP = real(1e-4);
-// Where f is as small as its roundings already, a last step of up to this part of the node's size is taken: what the surface
-// bends over it is less than the tolerance. A longer one, on a ray that all but touches the surface, would lead off the ray.
+// Where f is as small as its roundings already, a last step of up to this part of the node's size is taken: over that the
+// surface bends by some roundings. A longer one, on a ray that all but touches the surface, would lead off the ray.
 const real LAST_STEP = real(0.01);
 // No step is smaller than the roundings of a weight.
 const real WEIGHT_ROUNDINGS = real(2.4e-7);
