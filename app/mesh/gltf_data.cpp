@@ -13,6 +13,7 @@
 
 #include "app/base/error.h"
 #include "app/base/folder_of.h"
+#include "app/base/word_at.h"
 #include "app/mesh/file_bytes.h"
 
 namespace trisect::gltf {
@@ -77,12 +78,6 @@ std::string decoded_percent(const std::string& text) {
 
 // EXT_meshopt_compression packs no more than so many bytes into one: 16 equal bytes into 2 bits.
 constexpr std::size_t kMostPacked = 64;
-
-uint32_t word_at(std::string_view bytes, std::size_t at) {
-  uint32_t word = 0;
-  std::memcpy(&word, bytes.data() + at, sizeof(word));
-  return word;
-}
 
 std::size_t size_of(uint32_t component_type) {
   switch (component_type) {

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
-#include <cstring>
 #include <utility>
 
 #include "app/base/error.h"
 #include "app/base/folder_of.h"
 #include "app/base/memory.h"
+#include "app/base/word_at.h"
 #include "app/mesh/assimp_file.h"
 #include "app/mesh/file_bytes.h"
 #include "app/mesh/gltf_file.h"
@@ -32,8 +32,7 @@ std::string ending_of(std::filesystem::path path) {
 // A binary STL is 80 bytes of any text, the number of its facets, and 50 bytes for each.
 bool is_binary_stl(std::string_view bytes) {
   if (bytes.size() < 84) return false;
-  uint32_t facets = 0;
-  std::memcpy(&facets, bytes.data() + 80, sizeof(facets));
+  const uint32_t facets = word_at(bytes, 80);
   return facets > 0 && bytes.size() == 84 + std::size_t{facets} * 50;
 }
 

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <fstream>
 #include <stdexcept>
 #include <string>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "app/base/message.h"
+#include "app/base/word_at.h"
 #include "app/frame/image_part.h"
 
 namespace trisect {
@@ -46,13 +46,6 @@ constexpr std::array<std::pair<std::string_view, std::streamoff>, 24> kSizes{{
     {"v3i", 12},
 }};
 
-template <typename Number>
-Number number_at(std::string_view bytes, std::size_t at) {
-  Number number{};
-  std::memcpy(&number, bytes.data() + at, sizeof(number));
-  return number;
-}
-
 // Whether a list of channels ends where its bytes do: names, each with 16 bytes, and an empty one.
 bool is_channel_list(std::string_view bytes) {
   constexpr std::size_t of_channel = 16;
@@ -67,18 +60,15 @@ bool is_channel_list(std::string_view bytes) {
 // Whether a small picture has the bytes for its pixels: width, height, and four each.
 bool is_preview(std::string_view bytes) {
   if (bytes.size() < 8) return false;
-  const uint64_t width = number_at<uint32_t>(bytes, 0);
-  const uint64_t height = number_at<uint32_t>(bytes, 4);
-  const uint64_t pixels = (bytes.size() - 8) / 4;
-  return (bytes.size() - 8) % 4 == 0 && (width == 0 || height == pixels / width) &&
-         width * height == pixels;
+  const std::size_t of_pixels = bytes.size() - 8;
+  return of_pixels % 4 == 0 && uint64_t{word_at(bytes, 0)} * word_at(bytes, 4) == of_pixels / 4;
 }
 
 // Whether texts, each after its length, are as many bytes as there are.
 bool is_list_of_texts(std::string_view bytes) {
   while (!bytes.empty()) {
     if (bytes.size() < 4) return false;
-    const auto length = number_at<uint32_t>(bytes, 0);
+    const uint32_t length = word_at(bytes, 0);
     if (length > bytes.size() - 4) return false;
     bytes.remove_prefix(4 + length);
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -44,12 +45,34 @@ dvec3 weights_of(const SubpatchBounds& bounds, const dvec3& l) {
   return dvec3(bounds.sub_triangle) + l * static_cast<double>(bounds.sub_triangle.w);
 }
 
+in_double::SubTriangle sub_triangle_of(const SubpatchBounds& bounds) {
+  return {dvec3(bounds.sub_triangle), double{bounds.sub_triangle.w}};
+}
+
+DisplacementQuadratic quadratic_of(const SubpatchBounds& bounds) {
+  return {dvec3(glm::vec3(bounds.corner)), dvec3(glm::vec3(bounds.edge))};
+}
+
 // The control points of a subpatch with its overlap.
 std::array<dvec3, 10> control_points_of(const BakedScene& scene, const SubpatchBounds& bounds) {
-  return control_points(
-      patch_of(scene.choice.shell, scene.triangles[bounds.triangle]),
-      {dvec3(glm::vec3(bounds.corner)), dvec3(glm::vec3(bounds.edge))},
-      in_double::with_overlap({dvec3(bounds.sub_triangle), double{bounds.sub_triangle.w}}));
+  return control_points(patch_of(scene.choice.shell, scene.triangles[bounds.triangle]),
+                        quadratic_of(bounds), in_double::with_overlap(sub_triangle_of(bounds)));
+}
+
+// Directions on the border of a subpatch's cone, all around its axis.
+std::array<dvec3, 16> cone_border(const SubpatchBounds& bounds) {
+  const dvec3 n(bounds.cone);
+  const dvec3 x = glm::normalize(std::abs(n.x) < 0.5 ? glm::cross(n, {1.0, 0.0, 0.0})
+                                                     : glm::cross(n, {0.0, 1.0, 0.0}));
+  const dvec3 y = glm::cross(n, x);
+  const double cosine = bounds.cone.w;
+  const double sine = std::sqrt(1.0 - cosine * cosine);
+  std::array<dvec3, 16> border{};
+  for (std::size_t k = 0; k < border.size(); ++k) {
+    const double angle = static_cast<double>(k) * std::acos(-1.0) / 8.0;
+    border[k] = n * cosine + (x * std::cos(angle) + y * std::sin(angle)) * sine;
+  }
+  return border;
 }
 
 // No line within a subpatch's cone is tangent to the enlarged subpatch: S_u, S_v and the line keep
@@ -63,20 +86,13 @@ TEST(SubpatchBounds, LinesWithinItsConeCrossTheSubpatchOneWay) {
       ++cones;
       const in_double::Triangle tri = to_double(scene.triangles[bounds.triangle]);
       const in_double::Shape shape = shape_of(choice.choice);
-      const dvec3 n(bounds.cone);
-      const dvec3 x = glm::normalize(std::abs(n.x) < 0.5 ? glm::cross(n, {1.0, 0.0, 0.0})
-                                                         : glm::cross(n, {0.0, 1.0, 0.0}));
-      const dvec3 y = glm::cross(n, x);
-      const double cosine = bounds.cone.w;
-      const double sine = std::sqrt(1.0 - cosine * cosine);
+      const std::array<dvec3, 16> border = cone_border(bounds);
       for (const dvec3& l : test::weight_grid(6)) {
         const dvec3 w =
             weights_of(bounds, l * (1.0 + 3.0 * CONE_MARGIN) - dvec3(double{CONE_MARGIN}));
         const dvec3 normal = in_double::geometric_normal(shape, tri, w);
-        const double side = glm::dot(normal, n);
-        for (int k = 0; k < 16; ++k) {
-          const double angle = k * std::acos(-1.0) / 8.0;
-          const dvec3 d = n * cosine + (x * std::cos(angle) + y * std::sin(angle)) * sine;
+        const double side = glm::dot(normal, dvec3(bounds.cone));
+        for (const dvec3& d : border) {
           ASSERT_GT(glm::dot(normal, d) * side, 0.0)
               << choice.model << " triangle " << bounds.triangle;
         }
@@ -95,21 +111,13 @@ TEST(SubpatchBounds, LinesWithinItsConeCrossWhateverIsWithinTheTangentError) {
   for (const SubpatchBounds& bounds : scene.subpatches) {
     if (bounds.cone.w == NO_CONE) continue;
     ++cones;
-    const in_double::SubTriangle large = in_double::enlarged(
-        {dvec3(bounds.sub_triangle), double{bounds.sub_triangle.w}}, double{CONE_MARGIN});
-    const auto [u, v] =
-        tangent_net(patch_of(choice.choice.shell, scene.triangles[bounds.triangle]),
-                    {dvec3(glm::vec3(bounds.corner)), dvec3(glm::vec3(bounds.edge))}, large);
+    const in_double::SubTriangle large =
+        in_double::enlarged(sub_triangle_of(bounds), double{CONE_MARGIN});
+    const auto [u, v] = tangent_net(patch_of(choice.choice.shell, scene.triangles[bounds.triangle]),
+                                    quadratic_of(bounds), large);
     const double error = double{bounds.edge.w} * std::abs(large.size) / 3.0;
-    const dvec3 n = glm::normalize(dvec3(bounds.cone));
-    const dvec3 x = glm::normalize(std::abs(n.x) < 0.5 ? glm::cross(n, {1.0, 0.0, 0.0})
-                                                       : glm::cross(n, {0.0, 1.0, 0.0}));
-    const dvec3 y = glm::cross(n, x);
-    const double cosine = bounds.cone.w;
-    const double sine = std::sqrt(1.0 - cosine * cosine);
-    for (int k = 0; k < 16; ++k) {
-      const double angle = k * std::acos(-1.0) / 8.0;
-      const dvec3 d = n * cosine + (x * std::cos(angle) + y * std::sin(angle)) * sine;
+    const dvec3 n(bounds.cone);
+    for (const dvec3& d : cone_border(bounds)) {
       for (std::size_t i = 0; i < 6; ++i) {
         // The volume of u, v and d is linear in either of the tangents: each is moved against its
         // gradient, as far as it may be.
@@ -127,14 +135,6 @@ TEST(SubpatchBounds, LinesWithinItsConeCrossWhateverIsWithinTheTangentError) {
     }
   }
   EXPECT_GT(cones, 1000U);
-}
-
-// The weights of a random point, uniform over a triangle.
-dvec3 random_weights(std::mt19937_64& random) {
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  const double a = std::sqrt(unit(random));
-  const double b = unit(random);
-  return {1.0 - a, a * b, a * (1.0 - b)};
 }
 
 // How far S and its tangents are from those of T + q D at weights w.
@@ -174,9 +174,9 @@ TEST(SubpatchBounds, HoldTheSurface) {
       if (bounds.gradient_lipschitz == NONSMOOTH) ++nonsmooth;
       const in_double::Triangle tri = to_double(scene.triangles[bounds.triangle]);
       const Patch corners = patch_of(shape.shell, scene.triangles[bounds.triangle]);
-      const DisplacementQuadratic q{dvec3(glm::vec3(bounds.corner)), dvec3(glm::vec3(bounds.edge))};
+      const DisplacementQuadratic q = quadratic_of(bounds);
       for (int i = 0; i < 10; ++i) {
-        const dvec3 l = random_weights(random);
+        const dvec3 l = test::random_weights(random);
         const dvec3 w = weights_of(bounds, l * (1.0 + 3.0 * OVERLAP) - dvec3(double{OVERLAP}));
         const QuadraticErrors errors = errors_of(q, shape, tri, corners, w);
         ASSERT_LE(errors.position, bounds.corner.w) << choice.model << " subpatch " << k;
@@ -207,7 +207,7 @@ TEST(SubpatchBounds, AreNoLessThanTheErrorsOfTheirFit) {
     const Triangle& tri = scene.triangles[bounds.triangle];
     const Fit fit =
         fit_subpatch({shape_of(choice), to_double(tri), patch_of(choice.shell, tri), dvec3(0.0)},
-                     {dvec3(bounds.sub_triangle), bounds.sub_triangle.w});
+                     sub_triangle_of(bounds));
     ASSERT_GE(double{bounds.corner.w}, fit.position_error);
     ASSERT_GE(double{bounds.edge.w}, fit.tangent_error);
     ASSERT_GE(double{bounds.gradient_lipschitz}, fit.gradient_lipschitz);
@@ -243,7 +243,7 @@ TEST(SphereRange, HoldsSigmaAndItsChanges) {
       dvec3 before = dvec3(node.origin) + dvec3(double{node.size} / 3.0);
       double sigma_before = in_double::displacement(shape, tri, before);
       for (int i = 0; i < 10; ++i) {
-        const dvec3 w = dvec3(node.origin) + random_weights(random) * double{node.size};
+        const dvec3 w = dvec3(node.origin) + test::random_weights(random) * double{node.size};
         const double sigma = in_double::displacement(shape, tri, w);
         lo = std::min(lo, sigma);
         hi = std::max(hi, sigma);
@@ -290,7 +290,7 @@ TEST(SphereRange, FitsTheNodesOfNonsmoothSubpatches) {
           in_float::with_overlap(in_float::sub_triangle_at(bounds.sub_triangle, path));
       for (int i = 0; i < 6; ++i) {
         // Three corners of the node and three points within it.
-        dvec3 l = random_weights(random);
+        dvec3 l = test::random_weights(random);
         if (i < 3) {
           l = dvec3(0.0);
           l[i] = 1.0;
@@ -327,6 +327,40 @@ TEST(SphereRange, FitsTheNodesOfNonsmoothSubpatches) {
   EXPECT_GT(of_unknown_gradient, 1000U);
 }
 
+// Pictures for projections, and where in them a point is.
+struct View {
+  TraceParams params;
+  in_float::Kernel kernel;
+
+  View(const BakedScene& scene, const dvec3& eye, const dvec3& target)
+      : params(make_params(scene, settings(eye, target))),
+        kernel(in_float::kernel_of(scene, params, {})) {}
+
+  // In pixels; z is the depth along the axis. Nothing where the point is not before the eye.
+  struct Seen {
+    double z;
+    std::optional<glm::dvec2> pixel;
+  };
+  [[nodiscard]] Seen at(const dvec3& point) const {
+    const dvec3 S = point - dvec3(params.anchor);
+    const double z = glm::dot(S, dvec3(params.frame_z));
+    const double before = 1.0 + z / params.anchor.w;
+    if (before <= 1e-3) return {z, {}};
+    return {z, glm::dvec2(glm::dot(S, dvec3(params.frame_x)) / before / params.frame_x.w + 320.0,
+                          glm::dot(S, dvec3(params.frame_y)) / before / params.frame_y.w + 240.0)};
+  }
+
+ private:
+  static TraceSettings settings(const dvec3& eye, const dvec3& target) {
+    TraceSettings settings;
+    settings.width = 640;
+    settings.height = 480;
+    settings.camera.eye = eye;
+    settings.camera.target = target;
+    return settings;
+  }
+};
+
 // The image positions of points of the surface lie in the box and within the lines of the projected
 // subpatch, and their depth is not less than the one at which it begins.
 TEST(ProjectedSubpatch, HoldsTheImageOfTheSurface) {
@@ -336,39 +370,27 @@ TEST(ProjectedSubpatch, HoldsTheImageOfTheSurface) {
   double tightest = 1e30;
   for (const Choice& choice : kChoices) {
     const BakedScene scene = baked(choice);
-    for (int view = 0; view < 6; ++view) {
-      TraceSettings settings;
-      settings.width = 640;
-      settings.height = 480;
+    for (int camera = 0; camera < 6; ++camera) {
       const dvec3 from(unit(random), unit(random), unit(random));
       // Every other camera is inside the model.
-      settings.camera.eye = scene.origin + from * scene.radius * (view % 2 == 0 ? 4.0 : 0.5);
-      settings.camera.target = scene.origin + dvec3(unit(random), 0.1, 0.2) * scene.radius * 0.2;
-      const TraceParams params = make_params(scene, settings);
-      in_float::Kernel kernel = in_float::kernel_of(scene, params, {});
-      const dvec3 X(params.frame_x);
-      const dvec3 Y(params.frame_y);
-      const dvec3 Z(params.frame_z);
+      const dvec3 eye = scene.origin + from * scene.radius * (camera % 2 == 0 ? 4.0 : 0.5);
+      View view(scene, eye, scene.origin + dvec3(unit(random), 0.1, 0.2) * scene.radius * 0.2);
+      in_float::Kernel& kernel = view.kernel;
       for (uint32_t i = 0; i < scene.subpatches.size(); i += 7) {
         const SubpatchBounds& bounds = scene.subpatches[i];
         const ProjectedSubpatch seen = kernel.project_subpatch(i);
         ProjectedSubpatch balled = seen;
         kernel.bound_by_ball(bounds.ball, balled);
         for (const dvec3& l : test::weight_grid(4)) {
-          const dvec3 S = in_double::surface_point(shape_of(choice.choice),
-                                                   to_double(scene.triangles[bounds.triangle]),
-                                                   weights_of(bounds, l)) -
-                          dvec3(params.anchor);
-          const double z = glm::dot(S, Z);
+          const auto [z, pixel] = view.at(in_double::surface_point(
+              shape_of(choice.choice), to_double(scene.triangles[bounds.triangle]),
+              weights_of(bounds, l)));
           EXPECT_GE(z, seen.lines_x.w);
-          const double before = 1.0 + z / params.anchor.w;
-          if (before <= 1e-3) continue;
-          const glm::dvec2 p(glm::dot(S, X) / before / params.frame_x.w + 320.0,
-                             glm::dot(S, Y) / before / params.frame_y.w + 240.0);
-          if (std::max(std::abs(p.x), std::abs(p.y)) > 1e4) continue;
+          if (!pixel || std::max(std::abs(pixel->x), std::abs(pixel->y)) > 1e4) continue;
+          const glm::dvec2 p = *pixel;
           ++points;
           ASSERT_TRUE(kernel.overlaps_rect(seen, glm::vec2(p), glm::vec2(kernel.PIXEL_SLACK)))
-              << choice.model << " subpatch " << i << " view " << view << " at " << p.x << ", "
+              << choice.model << " subpatch " << i << " view " << camera << " at " << p.x << ", "
               << p.y;
           ASSERT_TRUE(kernel.overlaps_rect(balled, glm::vec2(p), glm::vec2(kernel.PIXEL_SLACK)));
           EXPECT_GE(z, balled.lines_x.w);
@@ -388,28 +410,22 @@ TEST(ProjectedSubpatch, HoldsTheImageOfItsControlPointsWithTheirError) {
   std::size_t points = 0;
   const Choice choice{"sphere-20", {SURFACE_SPHERE, 0.0, SHELL_NORMAL}};
   const BakedScene scene = baked(choice);
-  for (int view = 0; view < 20; ++view) {
-    TraceSettings settings;
-    settings.width = 640;
-    settings.height = 480;
-    settings.camera.eye = scene.origin + stress::any_direction(random) * scene.radius * 4.0;
-    settings.camera.target = scene.origin;
-    const TraceParams params = make_params(scene, settings);
-    in_float::Kernel kernel = in_float::kernel_of(scene, params, {});
+  for (int camera = 0; camera < 20; ++camera) {
+    View view(scene, scene.origin + stress::any_direction(random) * scene.radius * 4.0,
+              scene.origin);
+    in_float::Kernel& kernel = view.kernel;
     for (uint32_t i = 0; i < scene.subpatches.size(); ++i) {
       const SubpatchBounds& bounds = scene.subpatches[i];
       const ProjectedSubpatch seen = kernel.project_subpatch(i);
       for (const dvec3& point : control_points_of(scene, bounds)) {
-        const dvec3 S =
-            point + stress::any_direction(random) * double{bounds.corner.w} - dvec3(params.anchor);
-        const double z = glm::dot(S, dvec3(params.frame_z));
+        const auto [z, pixel] =
+            view.at(point + stress::any_direction(random) * double{bounds.corner.w});
         ASSERT_GE(z, seen.lines_x.w);
-        const double before = 1.0 + z / params.anchor.w;
-        const glm::dvec2 p(glm::dot(S, dvec3(params.frame_x)) / before / params.frame_x.w + 320.0,
-                           glm::dot(S, dvec3(params.frame_y)) / before / params.frame_y.w + 240.0);
+        ASSERT_TRUE(pixel);
+        const glm::dvec2 p = *pixel;
         ++points;
         ASSERT_TRUE(kernel.overlaps_rect(seen, glm::vec2(p), glm::vec2(kernel.PIXEL_SLACK)))
-            << "subpatch " << i << " view " << view << " at " << p.x << ", " << p.y;
+            << "subpatch " << i << " view " << camera << " at " << p.x << ", " << p.y;
       }
     }
   }

@@ -138,6 +138,10 @@ TEST(OpenExr, ReadsTextsOfAnySize) {
     header.insert("text", Imf::StringAttribute(text));
     { const Imf::OutputFile file(path.c_str(), header); }
     EXPECT_NO_THROW(open_exr(path)) << text;
+    std::string bytes = test::content_of(path);
+    bytes.replace(bytes.find("string"), 6, "strong");
+    std::ofstream(path, std::ios::binary) << bytes;
+    EXPECT_NO_THROW(open_exr(path)) << text;
   }
 }
 

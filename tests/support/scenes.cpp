@@ -97,6 +97,13 @@ RandomPatch random_patch(std::mt19937_64& random, double spread) {
   return patch;
 }
 
+dvec3 random_weights(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const double a = std::sqrt(unit(random));
+  const double b = unit(random);
+  return {1.0 - a, a * b, a * (1.0 - b)};
+}
+
 std::vector<dvec3> weight_grid(int n, bool interior) {
   std::vector<dvec3> weights;
   const int margin = interior ? 1 : 0;

@@ -36,6 +36,9 @@ struct RandomPatch {
 };
 RandomPatch random_patch(std::mt19937_64& random, double spread);
 
+// The weights of a random point, each point of a triangle as likely as any other.
+glm::dvec3 random_weights(std::mt19937_64& random);
+
 // All weights with denominators n, (n + 1) (n + 2) / 2 of them; without the border if `interior`.
 std::vector<glm::dvec3> weight_grid(int n, bool interior = false);
 

@@ -17,16 +17,12 @@ using glm::dvec3;
 
 // Three points of a patch, so many times closer together than its vertices.
 CornerWeights random_piece(std::mt19937_64& random, int halvings) {
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  const auto point = [&] {
-    const double a = std::sqrt(unit(random));
-    const double b = unit(random);
-    return dvec3(1.0 - a, a * b, a * (1.0 - b));
-  };
   // Now and then at a vertex, where the sphere surface's derivatives turn.
-  const dvec3 about = random() % 4 == 0 ? dvec3(0.0, 1.0, 0.0) : point();
+  const dvec3 about = random() % 4 == 0 ? dvec3(0.0, 1.0, 0.0) : test::random_weights(random);
   CornerWeights piece{};
-  for (dvec3& corner : piece) corner = about + (point() - about) * std::ldexp(1.0, -halvings);
+  for (dvec3& corner : piece) {
+    corner = about + (test::random_weights(random) - about) * std::ldexp(1.0, -halvings);
+  }
   if (random() % 4 == 0) piece[0] = about;
   return piece;
 }
