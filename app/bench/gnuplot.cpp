@@ -1,6 +1,7 @@
 #include "app/bench/gnuplot.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -51,6 +52,12 @@ void run_gnuplot(const std::string& script) {
   } catch (const std::system_error&) {
     throw InputError("no temporary file can be made for gnuplot.");
   }
+}
+
+std::string gnuplot_color(std::size_t k, std::size_t count) {
+  // All around the circle of hues, light and dark by turns.
+  return fmt::format("hsv2rgb({:.3f}, 1, {})", static_cast<double>(k) / static_cast<double>(count),
+                     k % 2 == 0 ? 0.9 : 0.6);
 }
 
 }  // namespace trisect::bench

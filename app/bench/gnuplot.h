@@ -1,6 +1,7 @@
 // Draws plots with the program gnuplot.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace trisect::bench {
@@ -10,5 +11,8 @@ void expect_gnuplot();
 
 // Runs a script. Throws InputError if gnuplot fails.
 void run_gnuplot(const std::string& script);
+
+// For `lc rgb`: the k-th of `count` colours, no two of which are the same.
+std::string gnuplot_color(std::size_t k, std::size_t count);
 
 }  // namespace trisect::bench

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -40,6 +41,21 @@ std::vector<std::string> provenance(const gpu::Device& device, const opengl::Con
           fmt::format("CPU: {} threads", worker_threads()), program_and_date(),
           fmt::format("{}x{} pixels, {} frames each after a warm-up, in turns", options.width,
                       options.height, options.runs)};
+}
+
+// The surfaces with which there is more than one scene.
+std::vector<uint> summarized(const std::vector<bench::Scene>& scenes) {
+  std::map<uint, int> counts;
+  for (const bench::Scene& scene : scenes) ++counts[scene.surface];
+  std::vector<uint> surfaces;
+  for (const auto& [surface, count] : counts) {
+    if (count > 1) surfaces.push_back(surface);
+  }
+  return surfaces;
+}
+
+std::string summary_name(uint surface) {
+  return fmt::format("summary-{}", surface_name(surface));
 }
 
 std::vector<Block> report_of(const std::vector<bench::Scene>& scenes,
@@ -120,6 +136,13 @@ int bench_pareto(const ParetoOptions& options) {
     }
     save_image(comparison_picture(scene.truth, scene.thesis),
                folder.path() / (name + "-thesis.png"));
+  }
+  if (options.plots) {
+    for (const uint surface : summarized(scenes)) {
+      folder.plot(summary_name(surface), [&](const std::string& terminal, const std::string& file) {
+        return bench::summary_script(scenes, surface, terminal, file);
+      });
+    }
   }
   folder.write("report.csv",
                fmt::format("# {}\n{}", fmt::join(facts, "\n# "), bench::csv_of(scenes)));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/bench/gnuplot.h"
 #include "app/report/columns.h"
 
 namespace trisect::bench {
@@ -91,8 +92,8 @@ const Columns<ParetoRow>& pareto_columns() {
       {{"missed", "{}"}, "missed", {}, [](auto& r) { return r.one.errors.missed; }},
       {{"undecidable", "{}"}, "undecidable", {}, [](auto& r) { return r.one.errors.undecidable; }},
       {{"nans", "{}"}, "nans", {}, [](auto& r) { return r.one.errors.nans; }},
-      {{"outline_mean", "{:.4f}"}, "outline.mean", {"outline", "{:.2f}"}, [](auto& r) { return r.one.errors.outline_mean; }},
-      {{"outline_max", "{:.3f}"}, "outline.max", {}, [](auto& r) { return r.one.errors.outline_max; }},
+      {{"outline_mean", "{:.4f}"}, "outline.mean", {"outline", "{:.2f}"}, [](auto& r) { return r.one.errors.outline.mean; }},
+      {{"outline_max", "{:.3f}"}, "outline.max", {}, [](auto& r) { return r.one.errors.outline.max; }},
       {{"color_rmse", "{:.5g}"}, "color_rmse", {"RMSE", "{:.2g}"}, [](auto& r) { return r.one.errors.color_rmse; }},
       {{"psnr", "{:.4g}"}, "", {"PSNR", "{:.0f}"}, [](auto& r) { return r.one.errors.psnr; }},
       // Infinite if no colour differs, which JSON cannot say.
@@ -116,6 +117,73 @@ const Columns<ParetoRow>& pareto_columns() {
 
 std::string joined(const std::vector<std::string>& texts) {
   return fmt::format("{}", fmt::join(texts, "; "));
+}
+
+// What two panels of time over error are of.
+struct PanelTexts {
+  std::string title;
+  std::string time;       // what their vertical axis has
+  bool relative = false;  // to the fastest robust contender of the same scene
+};
+
+// Time over distance off the surface, and time over wrong pixels; a contender's curve breaks off
+// between scenes.
+std::string panels(const std::vector<const Scene*>& scenes, const PanelTexts& texts,
+                   const std::string& terminal, const std::string& file) {
+  std::vector<std::string> families;
+  for (const Scene* scene : scenes) {
+    for (const Measurement& one : scene->measurements) {
+      if (std::find(families.begin(), families.end(), one.family) == families.end()) {
+        families.push_back(one.family);
+      }
+    }
+  }
+  const auto point = [&](const Scene& scene, const Measurement& one) {
+    const Measurement* robust = texts.relative ? fastest(scene, is_robust) : nullptr;
+    // No distance, and no wrong pixel, have a place on a logarithmic axis too.
+    return fmt::format("{} {} {} {}\n", std::max(one.errors.off.p99, 1e-9),
+                       std::max(one.errors.off.max, 1e-9),
+                       one.ms.median / (robust == nullptr ? 1.0 : robust->ms.median),
+                       std::max(static_cast<double>(wrong_pixels(one)), 0.5));
+  };
+  std::string script = fmt::format("set terminal {}\nset output \"{}\"\n", terminal, file);
+  std::string front;
+  for (std::size_t k = 0; k < families.size(); ++k) {
+    script += fmt::format("$family{} << EOD\n", k);
+    for (const Scene* scene : scenes) {
+      for (const Measurement& one : scene->measurements) {
+        if (one.family != families[k]) continue;
+        script += point(*scene, one);
+        if (!one.dominated_by) front += point(*scene, one);
+      }
+      script += "\n";
+    }
+    script += "EOD\n";
+  }
+  script += fmt::format(
+      "$front << EOD\n{}EOD\n"
+      "set multiplot layout 1,2 title \"{}\"\n"
+      "set logscale xy\nset offsets graph 0.05, graph 0.05, 0, 0\nset grid\nset format x "
+      "\"10^{{%L}}\"\n"
+      "set ylabel \"{}\"\n"
+      "set key outside bottom center horizontal maxcols 2\n",
+      front, texts.title, texts.time);
+  const auto curves = [&](const char* columns, const char* style, const char* of_front) {
+    std::string text = "plot ";
+    for (std::size_t k = 0; k < families.size(); ++k) {
+      text += fmt::format("$family{} using {} with {} pt {} lc rgb {} title \"{}\", ", k, columns,
+                          style, k + 1, gnuplot_color(k, families.size()), families[k]);
+    }
+    return text + fmt::format(
+                      "$front using {} with points pt 6 ps 2.5 lc rgb \"black\" title \"Pareto "
+                      "front\"\n",
+                      of_front);
+  };
+  script += "set xlabel \"off the surface / radius: 99 of 100 hits, line to the largest\"\n" +
+            curves("1:3:1:2", "xerrorlines", "1:3");
+  script += "set xlabel \"wrong or missed pixels (none: drawn at 0.5)\"\nset format x \"%g\"\n" +
+            curves("4:3", "linespoints", "4:3");
+  return script + "unset multiplot\n";
 }
 
 }  // namespace
@@ -198,58 +266,26 @@ report::Table table_of(const Scene& scene) {
 }
 
 std::string plot_script(const Scene& scene, const std::string& terminal, const std::string& file) {
-  std::vector<std::string> families;
-  for (const Measurement& one : scene.measurements) {
-    if (std::find(families.begin(), families.end(), one.family) == families.end()) {
-      families.push_back(one.family);
-    }
+  return panels(
+      {&scene},
+      {fmt::format("{}, {} patches, {}", scene.model, scene.patches, surface_name(scene.surface)),
+       "milliseconds a frame", false},
+      terminal, file);
+}
+
+std::string summary_script(const std::vector<Scene>& scenes, uint surface,
+                           const std::string& terminal, const std::string& file) {
+  std::vector<const Scene*> shown;
+  std::vector<std::string> models;
+  for (const Scene& scene : scenes) {
+    if (scene.surface != surface) continue;
+    shown.push_back(&scene);
+    models.push_back(scene.model);
   }
-  std::string script = fmt::format("set terminal {}\nset output \"{}\"\n", terminal, file);
-  // An error of nothing, and no wrong pixel, have a place on a logarithmic axis too.
-  for (std::size_t k = 0; k < families.size(); ++k) {
-    script += fmt::format("$family{} << EOD\n", k);
-    for (const Measurement& one : scene.measurements) {
-      if (one.family != families[k]) continue;
-      script += fmt::format("{} {} {}\n", std::max(one.errors.rms, 1e-9), one.ms.median,
-                            std::max(static_cast<double>(wrong_pixels(one)), 0.5));
-    }
-    script += "EOD\n";
-  }
-  std::vector<const Measurement*> front;
-  for (const Measurement& one : scene.measurements) {
-    if (!one.dominated_by) front.push_back(&one);
-  }
-  std::sort(front.begin(), front.end(), [](const Measurement* a, const Measurement* b) {
-    return a->errors.rms < b->errors.rms;
-  });
-  script += "$front << EOD\n";
-  for (const Measurement* one : front) {
-    script += fmt::format("{} {}\n", std::max(one->errors.rms, 1e-9), one->ms.median);
-  }
-  script += "EOD\n";
-  script += fmt::format(
-      "set multiplot layout 1,2 title \"{}, {} patches, {}\"\n"
-      "set logscale xy\nset grid\nset format x \"10^{{%L}}\"\n"
-      "set ylabel \"milliseconds a frame\"\n"
-      "set key outside bottom center horizontal maxcols 2\n"
-      "set xlabel \"error: RMS distance off the surface / radius, a wrong pixel counts 1\"\n",
-      scene.model, scene.patches, surface_name(scene.surface));
-  const auto curves = [&](const char* columns) {
-    std::vector<std::string> parts;
-    for (std::size_t k = 0; k < families.size(); ++k) {
-      parts.push_back(
-          fmt::format("$family{0} using {1} with linespoints pt {2} lc {2} title \"{3}\"", k,
-                      columns, k + 1, families[k]));
-    }
-    return fmt::format("{}", fmt::join(parts, ", "));
-  };
-  script += "plot " + curves("1:2") +
-            ", $front using 1:2 with steps lw 2 lc rgb \"black\" title \"Pareto front\"\n";
-  script +=
-      "set xlabel \"wrong or missed pixels (none: drawn at 0.5)\"\nset format x \"%g\"\n"
-      "plot " +
-      curves("3:2") + "\nunset multiplot\n";
-  return script;
+  return panels(shown,
+                {fmt::format("{}: {}", surface_name(surface), fmt::join(models, ", ")),
+                 "times the robust solver's milliseconds", true},
+                terminal, file);
 }
 
 }  // namespace trisect::bench

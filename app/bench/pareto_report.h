@@ -18,9 +18,13 @@ nlohmann::ordered_json json_of(const std::vector<Scene>& scenes);
 // its time and error compare with the thesis's bisection and with Embree.
 std::vector<std::string> findings_of(const Scene& scene);
 
-// A gnuplot script that draws time over error and time over wrong pixels. terminal: gnuplot's
-// terminal with its options. file: where gnuplot writes the picture.
+// A gnuplot script that draws time over the distance off the surface and time over wrong pixels.
+// terminal: gnuplot's terminal with its options. file: where gnuplot writes the picture.
 std::string plot_script(const Scene& scene, const std::string& terminal, const std::string& file);
+
+// The same for all scenes with a surface in one, with time in that of the fastest robust contender.
+std::string summary_script(const std::vector<Scene>& scenes, uint surface,
+                           const std::string& terminal, const std::string& file);
 
 // One row per contender.
 report::Table table_of(const Scene& scene);

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -44,8 +46,8 @@ Measurement robust() {
   one.errors.depth_ulp = {0.51234, 1.98765, 12.3456};
   one.errors.normal_degrees = {0.001234, 0.0123456, 0.123456};
   one.errors.rms = 3.45678e-8;
-  one.errors.outline_mean = 0.012345;
-  one.errors.outline_max = 1.41421;
+  one.errors.outline.mean = 0.012345;
+  one.errors.outline.max = 1.41421;
   one.errors.color_rmse = 0.0123456;
   one.errors.psnr = 86.2987;
   one.bytes = 123456;
@@ -110,6 +112,49 @@ TEST(ParetoReport, IsExactAsTable) {
 | robust, tiles | 2.3 | 1.2 | 13.5 | 3.5e-08 | 1 | 2 | 1.2e-08 | 2.3e-07 | 0.0e+00 | 2 | 0.012 | 0.01 | 0.012 | 86 | 98765 | 7 | 120 | yes |
 | thesis, height shell, Rank 10 | 25.0 | 20.0 | 30.0 | 2.5e-01 | 0 | 0 | 0.0e+00 | 0.0e+00 | 1.0e+00 | 0 | 0 | 0.00 | 0 | inf |  |  | 0 |  |
 )");
+}
+
+// A wrong pixel is on an axis of its own, and does not hide how near the others are.
+TEST(ParetoReport, DrawsNinetyNineOfAHundredHitsTheLargestErrorAndWrongPixels) {
+  const std::string script = plot_script(pareto(), "svg", "a.svg");
+  const std::string robust_point = "2.3456e-07 1e-09 2.3456 3\n";
+  EXPECT_NE(script.find("$family0 << EOD\n" + robust_point), std::string::npos) << script;
+  EXPECT_NE(script.find("$family1 << EOD\n1e-09 1 25 0.5\n"), std::string::npos) << script;
+  EXPECT_NE(script.find("$front << EOD\n" + robust_point + "EOD\n"), std::string::npos) << script;
+}
+
+TEST(ParetoReport, SumsUpAllModelsWithASurfaceInTimesOfTheRobustSolver) {
+  Scene torus = pareto();
+  torus.model = "torus";
+  torus.measurements[0].ms.median = 5.0;
+  Scene sphere = pareto();
+  sphere.model = "sphere-20";
+  sphere.surface = SURFACE_SPHERE;
+  const std::string script = summary_script({pareto(), torus, sphere}, SURFACE_PHONG, "svg", "a");
+  EXPECT_NE(script.find("\"phong: teapot, torus\""), std::string::npos) << script;
+  // An empty line ends a scene's curve.
+  const std::string robust_point = "2.3456e-07 1e-09 1 3\n";
+  EXPECT_NE(script.find("$family0 << EOD\n" + robust_point + "\n" + robust_point + "\nEOD\n"),
+            std::string::npos)
+      << script;
+  EXPECT_NE(script.find("\n\n1e-09 1 5 0.5\n"), std::string::npos) << script;
+}
+
+TEST(ParetoReport, DrawsNoTwoContendersInOneColour) {
+  Scene scene = pareto();
+  for (int k = 0; k < 12; ++k) {
+    scene.measurements.push_back(thesis());
+    scene.measurements.back().family = "contender " + std::to_string(k);
+  }
+  const std::string script = plot_script(scene, "svg", "a.svg");
+  std::multiset<std::string> colours;
+  const std::regex colour("hsv2rgb[^ ]* 1, [^ ]*");
+  for (std::sregex_iterator it(script.begin(), script.end(), colour), end; it != end; ++it) {
+    colours.insert(it->str());
+  }
+  // Each once in both panels.
+  EXPECT_EQ(colours.size(), 28U);
+  for (const std::string& one : colours) EXPECT_EQ(colours.count(one), 2U) << one;
 }
 
 Ablation ablation() {

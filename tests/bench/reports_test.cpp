@@ -65,9 +65,9 @@ TEST_F(Reports, ReportsSpeedAgainstError) {
     "undecidable": 1, "wrong": 0, "missed": 0, "depth_error_ulp_p50": 0.1,
     "depth_error_ulp_p99": 0.5, "depth_error_ulp_max": 0.7, "nans": 0, "evaluations_per_ray": 3.25,
     "verdict": "pass", "note": ""}]})";
-  const test::ProgramRun run =
-      test::run_trisect({"bench", "pareto", test::asset_path("sphere-80"), "--quick", "--surface",
-                         "phong", "--size", "80x60", "--hardcases", table, "-o", folder_ / "r"});
+  const test::ProgramRun run = test::run_trisect(
+      {"bench", "pareto", test::asset_path("sphere-80"), test::asset_path("sphere-20"), "--quick",
+       "--surface", "phong", "--size", "80x60", "--hardcases", table, "-o", folder_ / "r"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_NE(test::content_of(folder_ / "r" / "report.md").find("| needle |"), std::string::npos);
   // The CSV begins with comments that say what the measurements were made with.
@@ -75,7 +75,8 @@ TEST_F(Reports, ReportsSpeedAgainstError) {
   EXPECT_EQ(csv.substr(0, 10), "# Vulkan: ");
   EXPECT_NE(csv.find(", commit "), std::string::npos);
   for (const char* name : {"report.md", "report.html", "report.csv", "sphere-80-phong.svg",
-                           "sphere-80-phong.png", "sphere-80-phong-thesis.png"}) {
+                           "sphere-80-phong.png", "sphere-80-phong-thesis.png",
+                           "sphere-20-phong.svg", "summary-phong.svg", "summary-phong.png"}) {
     EXPECT_GT(std::filesystem::file_size(folder_ / "r" / name), 500U) << name;
   }
   std::ifstream file(folder_ / "r" / "report.json");
