@@ -27,6 +27,11 @@ void add_report_folder(CLI::App& command, std::string& output) {
       ->type_name("DIR");
 }
 
+void add_plots(CLI::App& command, bool& plots) {
+  command.add_flag("--no-plots{false}", plots, "Draw no plots: gnuplot is not needed")
+      ->group(option_group::kOutput);
+}
+
 }  // namespace
 
 CommandLine::CommandLine(CLI::App& app)
@@ -36,15 +41,20 @@ CommandLine::CommandLine(CLI::App& app)
   add_speed();
   add_pareto();
   add_ablation();
+  add_shape();
   add_stability();
 }
 
 void CommandLine::add_frames(CLI::App& command, const MeasuredModels& defaults) {
   add_size(command, text_.size, fmt::format("{}x{}", defaults.width, defaults.height));
   add_surfaces(command, text_.surface);
+  add_runs(command, defaults.runs);
+}
+
+void CommandLine::add_runs(CLI::App& command, uint32_t standard) {
   command
       .add_option("--runs", text_.runs,
-                  fmt::format("Frames to time after a warm-up, default {}", defaults.runs))
+                  fmt::format("Frames to time after a warm-up, default {}", standard))
       ->group(option_group::kMeasuring)
       ->check(number_from_to(1, 1000))
       ->type_name("N");
@@ -85,8 +95,7 @@ void CommandLine::add_pareto() {
       ->check(not_empty())
       ->check(suggest_files({".json"}))
       ->type_name("FILE");
-  command.add_flag("--no-plots{false}", pareto_.plots, "Draw no plots: gnuplot is not needed")
-      ->group(option_group::kOutput);
+  add_plots(command, pareto_.plots);
   command
       .add_flag("--no-opengl{false}", pareto_.opengl,
                 "Leave out OpenGL's tessellation shaders: no OpenGL is needed")
@@ -103,6 +112,34 @@ void CommandLine::add_ablation() {
   add_report_folder(command, ablation_.output);
   add_frames(command, ablation_);
   add_device(command, ablation_.device);
+}
+
+void CommandLine::add_shape() {
+  CLI::App& command = subcommand(
+      bench_, "shape",
+      "Measure how near models come to a shape, by flat and by curved triangles, and write a "
+      "report with plots");
+  add_models(command, shape_.models);
+  command
+      .add_option("--reference", shape_.reference,
+                  "Fine model of the shape that the others stand for")
+      ->group(option_group::kMeasuring)
+      ->required()
+      ->check(not_empty())
+      ->check(suggest_files({".obj", ".gltf", ".glb", ".ply", ".stl", ".fbx"}))
+      ->type_name("FILE");
+  command
+      .add_option("--error", shape_.error,
+                  "How far the triangles by which distances are measured may be off a curved "
+                  "surface, over the shape's radius, default 1e-4")
+      ->group(option_group::kMeasuring)
+      ->check(number_from_to(1e-6, 1.0))
+      ->type_name("E");
+  add_report_folder(command, shape_.output);
+  add_size(command, text_.size, fmt::format("{}x{}", shape_.width, shape_.height));
+  add_runs(command, shape_.runs);
+  add_plots(command, shape_.plots);
+  add_device(command, shape_.device);
 }
 
 void CommandLine::add_stability() {
@@ -128,10 +165,17 @@ int CommandLine::run() {
     pareto_.finest_error = 0.0;
   }
   // The options that the other subcommands share.
-  const auto apply = [&](MeasuredModels& options) {
+  const auto apply_frames = [&](auto& options) {
     if (text_.size) parse_size("--size", *text_.size, options.width, options.height);
-    if (text_.surface) options.surfaces = {surface_of(*text_.surface)};
     if (text_.runs) options.runs = *text_.runs;
+  };
+  if (bench_.got_subcommand("shape")) {
+    apply_frames(shape_);
+    return bench_shape(shape_);
+  }
+  const auto apply = [&](MeasuredModels& options) {
+    apply_frames(options);
+    if (text_.surface) options.surfaces = {surface_of(*text_.surface)};
   };
   if (bench_.got_subcommand("pareto")) {
     apply(pareto_);

@@ -34,17 +34,20 @@ class CommandLine {
 
   // Adds the options whose values go into `text_`.
   void add_frames(CLI::App& command, const MeasuredModels& defaults);
+  void add_runs(CLI::App& command, uint32_t standard);
   void add_speed();
   void add_pareto();
   void add_ablation();
+  void add_shape();
   void add_stability();
 
   CLI::App& bench_;
   BenchOptions speed_;
   ParetoOptions pareto_;
   AblationOptions ablation_;
+  ShapeOptions shape_;
   StabilityOptions stability_;
-  Text text_;  // of speed, pareto or ablation
+  Text text_;  // of all but stability
   bool quick_ = false;
 };
 

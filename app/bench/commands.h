@@ -16,6 +16,10 @@ int bench_pareto(const ParetoOptions& options);
 // into a folder.
 int bench_ablation(const AblationOptions& options);
 
+// Measures how near models come to a shape, by flat and by curved triangles, and writes a report
+// into a folder.
+int bench_shape(const ShapeOptions& options);
+
 // Measures errors over distance, scale and other parameters, and writes a report into a folder.
 int bench_stability(const StabilityOptions& options);
 

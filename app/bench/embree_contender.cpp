@@ -1,17 +1,11 @@
-#include <embree3/rtcore.h>
-#include <fmt/format.h>
-
 #include <array>
-#include <atomic>
 #include <limits>
 #include <memory>
-#include <type_traits>
 
-#include "app/base/error.h"
 #include "app/base/parallel_rows.h"
 #include "app/base/stopwatch.h"
-#include "app/base/threads.h"
 #include "app/bench/contender.h"
+#include "app/bench/embree_triangles.h"
 #include "app/cli/interrupt.h"
 #include "app/dispatch/kernel_float.h"
 
@@ -19,22 +13,6 @@ namespace trisect::bench {
 namespace {
 
 using in_float::Kernel;
-
-struct Release {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-template <typename Handle>
-using Held = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
-
-// Embree's memory monitor: adds up what is allocated and freed, and allows every allocation.
-bool count_bytes(void* counter, ssize_t bytes, bool) {
-  static_cast<std::atomic<ssize_t>*>(counter)->fetch_add(bytes);
-  return true;
-}
-
-constexpr const char* kNoTriangles =
-    "not enough memory for Embree's triangles; take fewer of them or a smaller model.";
 
 // A packet is a square of 4 x 4 pixels.
 constexpr uint32_t kSide = 4;
@@ -48,20 +26,7 @@ class OnEmbree : public Contender {
         n_(flat.n),
         rays_(rays),
         kernel_(in_float::kernel_of(scene, params_, {})),
-        device_(rtcNewDevice(fmt::format("threads={}", worker_threads()).c_str())) {
-    rtcSetDeviceMemoryMonitorFunction(device_.get(), count_bytes, &bytes_);
-    scene_.reset(rtcNewScene(device_.get()));
-    RTCGeometry triangles = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    copy(triangles, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, flat.vertices);
-    copy(triangles, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, flat.triangles);
-    rtcCommitGeometry(triangles);
-    rtcAttachGeometry(scene_.get(), triangles);
-    rtcReleaseGeometry(triangles);
-    rtcCommitScene(scene_.get());
-    if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) {
-      throw OutOfMemory(kNoTriangles);
-    }
-  }
+        triangles_(flat.vertices, flat.triangles) {}
 
   Timing render(Frame& frame) override {
     const Stopwatch watch;
@@ -72,9 +37,7 @@ class OnEmbree : public Contender {
 
   void inspect(Frame& frame) override { trace(frame, true); }
 
-  [[nodiscard]] std::size_t bytes() const override {
-    return static_cast<std::size_t>(bytes_.load());
-  }
+  [[nodiscard]] std::size_t bytes() const override { return triangles_.bytes(); }
 
  private:
   void trace(Frame& frame, bool aovs) const {
@@ -94,14 +57,6 @@ class OnEmbree : public Contender {
                   },
                   [](uint32_t) { return not_interrupted(); });
     stop_if_interrupted();
-  }
-
-  template <typename Item>
-  static void copy(RTCGeometry geometry, RTCBufferType type, RTCFormat format,
-                   const std::vector<Item>& items) {
-    void* to = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(Item), items.size());
-    if (to == nullptr) throw OutOfMemory(kNoTriangles);
-    std::copy(items.begin(), items.end(), static_cast<Item*>(to));
   }
 
   // Calls use(x, y, k) for the k-th pixel of a packet that begins at x, y.
@@ -137,7 +92,7 @@ class OnEmbree : public Contender {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcIntersect16(valid.data(), scene_.get(), &context, &packet);
+    rtcIntersect16(valid.data(), triangles_.scene(), &context, &packet);
     for_each_pixel(x, y, [&](uint32_t px, uint32_t py, uint32_t k) {
       const bool met = packet.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID;
       shade(kernel, rays[k], px, py, met ? packet.hit.primID[k] : NO_TRIANGLE, packet.hit.u[k],
@@ -160,7 +115,7 @@ class OnEmbree : public Contender {
       one.ray.tfar = std::numeric_limits<float>::infinity();
       one.ray.mask = ~0U;
       one.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-      rtcIntersect1(scene_.get(), &context, &one);
+      rtcIntersect1(triangles_.scene(), &context, &one);
       const bool met = one.hit.geomID != RTC_INVALID_GEOMETRY_ID;
       shade(kernel, ray, px, py, met ? one.hit.primID : NO_TRIANGLE, one.hit.u, one.hit.v,
             one.ray.tfar, frame);
@@ -188,9 +143,7 @@ class OnEmbree : public Contender {
   uint32_t n_;
   EmbreeRays rays_;
   Kernel kernel_;
-  std::atomic<ssize_t> bytes_{0};
-  Held<RTCDevice> device_;
-  Held<RTCScene> scene_;
+  EmbreeTriangles triangles_;
 };
 
 }  // namespace

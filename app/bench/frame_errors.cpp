@@ -34,25 +34,26 @@ std::vector<dvec2> outline_of(const Frame& frame) {
   return outline;
 }
 
-void compare_outlines(const Frame& frame, const Frame& shown, FrameErrors& errors) {
+}  // namespace
+
+OutlineErrors outline_errors(const Frame& frame, const Frame& truth) {
   const std::vector<dvec2> outline = outline_of(frame);
-  const std::vector<dvec2> truth = outline_of(shown);
-  if (outline.empty() || truth.empty()) return;
-  double sum = 0.0;
+  const std::vector<dvec2> true_outline = outline_of(truth);
+  if (outline.empty() || true_outline.empty()) return {};
+  OutlineErrors errors;
   for (const dvec2& point : outline) {
     double nearest = std::numeric_limits<double>::infinity();
-    for (const dvec2& other : truth) {
+    for (const dvec2& other : true_outline) {
       const dvec2 apart = other - point;
       nearest = std::min(nearest, glm::dot(apart, apart));
     }
     const double distance = std::sqrt(nearest);
-    sum += distance;
-    errors.outline_max = std::max(errors.outline_max, distance);
+    errors.mean += distance;
+    errors.max = std::max(errors.max, distance);
   }
-  errors.outline_mean = sum / static_cast<double>(outline.size());
+  errors.mean /= static_cast<double>(outline.size());
+  return errors;
 }
-
-}  // namespace
 
 FrameErrors errors_of(const Frame& frame, const OracleFrame& truth, const Frame& shown,
                       const BakedScene& scene, const TraceParams& params) {
@@ -90,7 +91,7 @@ FrameErrors errors_of(const Frame& frame, const OracleFrame& truth, const Frame&
   errors.depth_ulp = quantiles_of(std::move(ulp));
   errors.normal_degrees = quantiles_of(std::move(degrees));
   errors.rms = seen == 0 ? 0.0 : std::sqrt(squares / static_cast<double>(seen));
-  compare_outlines(frame, shown, errors);
+  errors.outline = outline_errors(frame, shown);
   const FrameComparison colors = compare(frame, shown);
   errors.color_rmse = colors.color_rmse;
   errors.psnr = colors.psnr;

@@ -11,6 +11,16 @@
 
 namespace trisect::bench {
 
+struct OutlineErrors {
+  double mean = 0.0;
+  double max = 0.0;
+};
+
+// From each pixel of the frame's outline to the nearest one of the true outline, in pixels. The
+// outline are the hit pixels next to one that is not hit, so a hole has an outline, too. 0 if
+// either frame hits nothing. Both frames have AOVs.
+OutlineErrors outline_errors(const Frame& frame, const Frame& truth);
+
 // Unless said otherwise of the pixels that the oracle decides. Pixels are judged by classify(), but
 // a wrong patch or root counts by its distance only: what is compared here includes flat triangles
 // that stand for curved ones, whose hits near an edge are often the neighbour's.
@@ -26,11 +36,7 @@ struct FrameErrors {
   // Root mean square of `off` over the pixels that the frame or the oracle hits. A pixel that only
   // one of them hits, that is NaN, or that is off by more counts as off by the radius, which is 1.
   double rms = 0.0;
-  // From each pixel of the frame's outline to the nearest one of the oracle's, in pixels. The
-  // outline are the hit pixels next to one that is not hit, so a hole has an outline, too. 0 if
-  // either frame hits nothing. Undecidable pixels are not left out.
-  double outline_mean = 0.0;
-  double outline_max = 0.0;
+  OutlineErrors outline;  // undecidable pixels are not left out
   // Of the colours of all pixels: in steps of 8 bits (1/255), and in decibels.
   double color_rmse = 0.0;
   double psnr = 0.0;

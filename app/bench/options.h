@@ -49,6 +49,20 @@ struct AblationOptions : MeasuredModels {
   std::string output;  // a folder
 };
 
+struct ShapeOptions {
+  std::vector<std::string> models;
+  std::string reference;  // a fine model of the shape
+  // The most that the triangles by which distances are measured may be off the curved surface, over
+  // the shape's radius.
+  double error = 1e-4;
+  uint32_t width = 800;
+  uint32_t height = 600;
+  uint32_t runs = 5;
+  std::string device;
+  std::string output;  // a folder
+  bool plots = true;   // by gnuplot
+};
+
 struct StabilityOptions {
   uint32_t rays = 100;  // for each value of the parameter that is varied
   std::string output;   // a folder

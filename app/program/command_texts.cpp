@@ -134,6 +134,16 @@ const std::map<std::string, CommandTexts>& texts() {
         {{"A first look", "trisect bench pareto sphere-20.obj --quick -o report"},
          {"One surface of two models, without plots",
           "trisect bench pareto teapot.obj torus.obj --surface phong --no-plots -o report"}}}},
+      {"trisect bench shape",
+       {{"Distances are measured both ways between the surfaces, and none is larger than the bound "
+         "that stands beside it. The shape is what the triangles of the reference are: take it "
+         "much finer than the models."},
+        {{"Three spheres against one of a million triangles",
+          "trisect bench shape sphere-20.obj sphere-80.obj sphere-320.obj --reference fine.obj -o "
+          "shape"},
+         {"Without plots, with distances down to a millionth of the radius",
+          "trisect bench shape coarse.glb --reference fine.glb --error 1e-6 --no-plots -o "
+          "shape"}}}},
       {"trisect bench ablation",
        {{},
         {{"What each step is worth", "trisect bench ablation sphere-320.obj -o steps"},

@@ -1,6 +1,8 @@
 // Writes the project's models as OBJ files into a folder: make-assets FOLDER [NAME ...]; all, or
 // those named. Large ones are made by name only: sphere-1280 to sphere-5242880, each of four times
-// the triangles of the one before, and teapot-16k, -65k, -260k, -1m and -4m.
+// the triangles of the one before, so torus-1024 to torus-1048576, relief-320 to relief-327680 and
+// saddle-128 to saddle-131072; capsule-960 to capsule-1046528, each with edges half as long; and
+// teapot-16k, -65k, -260k, -1m and -4m.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -23,14 +25,14 @@ const std::map<std::string, std::function<Model()>> kModels{
     {"sphere-20", [] { return assets::sphere(0); }},
     {"sphere-80", [] { return assets::sphere(1); }},
     {"sphere-320", [] { return assets::sphere(2); }},
-    {"torus", assets::torus},
-    {"relief", assets::relief},
+    {"torus", [] { return assets::torus(); }},
+    {"relief", [] { return assets::relief(); }},
     {"teapot", [] { return assets::teapot(assets::kTeapot304); }},
     {"teapot-1000", [] { return assets::teapot(assets::kTeapot1016); }},
     {"teapot-4000", [] { return assets::teapot(assets::kTeapot4000); }},
-    {"capsule", assets::capsule},
+    {"capsule", [] { return assets::capsule(); }},
     {"cube", assets::cube},
-    {"saddle", assets::saddle},
+    {"saddle", [] { return assets::saddle(); }},
 };
 
 // Those that are only made by name.
@@ -39,6 +41,15 @@ std::map<std::string, std::function<Model()>> large_models() {
   int triangles = 1280;
   for (int divisions = 3; divisions <= 9; ++divisions, triangles *= 4) {
     models["sphere-" + std::to_string(triangles)] = [=] { return assets::sphere(divisions); };
+  }
+  for (int finer = 2; finer <= 64; finer *= 2) {
+    const auto add = [&](const char* name, int count, Model (*make)(int)) {
+      models[name + std::to_string(count)] = [=] { return make(finer); };
+    };
+    add("torus-", 256 * finer * finer, assets::torus);
+    add("capsule-", 256 * finer * finer - 32 * finer, assets::capsule);
+    add("relief-", 80 * finer * finer, assets::relief);
+    add("saddle-", 32 * finer * finer, assets::saddle);
   }
   int finer = 4;
   for (const char* name : {"teapot-16k", "teapot-65k", "teapot-260k", "teapot-1m", "teapot-4m"}) {

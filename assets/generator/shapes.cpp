@@ -59,9 +59,9 @@ Model sphere(int divisions) {
   return model;
 }
 
-Model torus() {
+Model torus(int finer) {
   Model model("Torus of radii 1 and 0.4");
-  add_grid(model, 16, 8, [](double u, double v) -> Vertex {
+  add_grid(model, 16 * finer, 8 * finer, [](double u, double v) -> Vertex {
     const dvec3 outward(std::sin(kTurn * u), 0.0, std::cos(kTurn * u));
     const dvec3 normal = outward * std::cos(kTurn * v) + dvec3(0.0, std::sin(kTurn * v), 0.0);
     return {outward + normal * 0.4, normal};
@@ -69,11 +69,11 @@ Model torus() {
   return model;
 }
 
-Model capsule() {
+Model capsule(int finer) {
   Model model("Capsule of radius 0.5 and length 2");
   constexpr double radius = 0.5;
-  constexpr int columns = 16;
-  constexpr int rings = 3;  // of each half ball
+  const int columns = 16 * finer;
+  const int rings = 3 * finer;  // of each half ball
   const auto at = [](double u, double latitude, double middle) -> Vertex {
     const double along = std::sin(latitude);
     const double across = std::cos(latitude);
@@ -83,7 +83,7 @@ Model capsule() {
   constexpr double quarter = glm::half_pi<double>();
   add_grid(model, columns, rings,
            [&](double u, double v) { return at(u, quarter * (v - 1.0), -0.5); });
-  add_grid(model, columns, 2, [&](double u, double v) { return at(u, 0.0, v - 0.5); });
+  add_grid(model, columns, 2 * finer, [&](double u, double v) { return at(u, 0.0, v - 0.5); });
   add_grid(model, columns, rings, [&](double u, double v) { return at(u, quarter * v, 0.5); });
   return model;
 }
@@ -103,9 +103,9 @@ Model cube() {
   return model;
 }
 
-Model saddle() {
+Model saddle(int finer) {
   Model model("Saddle y = (x^2 - z^2) / 2");
-  add_grid(model, 4, 4, [](double u, double v) -> Vertex {
+  add_grid(model, 4 * finer, 4 * finer, [](double u, double v) -> Vertex {
     const double x = 2.0 * u - 1.0;
     const double z = 1.0 - 2.0 * v;
     return {{x, (x * x - z * z) / 2.0, z}, glm::normalize(dvec3(-x, 1.0, z))};
@@ -113,9 +113,9 @@ Model saddle() {
   return model;
 }
 
-Model relief() {
+Model relief(int finer) {
   Model model("Relief z = 0.2 cos(3 x) cos(3 y) + 0.1 x y");
-  add_grid(model, 8, 5, [](double u, double v) -> Vertex {
+  add_grid(model, 8 * finer, 5 * finer, [](double u, double v) -> Vertex {
     const double x = 3.2 * u - 1.6;
     const double y = 2.0 * v - 1.0;
     const double z = 0.2 * std::cos(3.0 * x) * std::cos(3.0 * y) + 0.1 * x * y;

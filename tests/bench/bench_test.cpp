@@ -200,7 +200,7 @@ TEST_F(FrameErrorsTest, OfTheTruthAreRoundings) {
   EXPECT_EQ(e.wrong + e.missed + e.nans, 0U);
   // The frame's depths, about 3, are rounded to half a unit in the last place.
   EXPECT_LT(e.rms, 1e-7);
-  EXPECT_EQ(e.outline_max, 0.0);
+  EXPECT_EQ(e.outline.max, 0.0);
   EXPECT_EQ(e.color_rmse, 0.0);
 }
 
@@ -215,7 +215,7 @@ TEST_F(FrameErrorsTest, CountAMissAsTheRadius) {
   for (const OracleAnswer& answer : truth_.pixels) seen += answer.hit && answer.decidable ? 1 : 0;
   EXPECT_NEAR(e.rms, 1.0 / std::sqrt(static_cast<double>(seen)), 1e-6);
   // The pixels around the hole count as outline, and they are far from the true outline.
-  EXPECT_GT(e.outline_max, 10.0);
+  EXPECT_GT(e.outline.max, 10.0);
 }
 
 TEST_F(FrameErrorsTest, CountAHitOfNothingAndNumbersThatAreNone) {

@@ -13,6 +13,7 @@
 #include "app/base/error.h"
 #include "app/bench/ablation_report.h"
 #include "app/bench/pareto_report.h"
+#include "app/bench/shape_report.h"
 #include "app/bench/speed_report.h"
 #include "app/bench/stability_report.h"
 #include "app/bench/stress_table.h"
@@ -155,6 +156,99 @@ TEST(ParetoReport, DrawsNoTwoContendersInOneColour) {
   // Each once in both panels.
   EXPECT_EQ(colours.size(), 28U);
   for (const std::string& one : colours) EXPECT_EQ(colours.count(one), 2U) << one;
+}
+
+ShapeRow shape_row(const std::string& model, std::size_t triangles, uint surface, double rms,
+                   double ms, std::size_t bytes) {
+  ShapeRow row;
+  row.model = model;
+  row.triangles = triangles;
+  row.choice = {surface, 0.65, SHELL_NORMAL};
+  row.samples.rms = rms;
+  row.samples.distance = {0.5 * rms, 2.0 * rms, 2.5 * rms};
+  row.samples.shading_degrees = {0.25, 1.5, 3.0};
+  row.samples.face_degrees = {2.0, 12.0, 20.0};
+  row.to_shape = {3.0 * rms, 3.1 * rms};
+  row.to_model = {4.0 * rms, 4.1 * rms};
+  row.wrong = 12;
+  row.outline = {0.125, 3.0};
+  row.color_rmse = 1.5;
+  row.similarity = 0.987654;
+  row.relative = 1.3e-3;
+  row.ms = {0.5 * ms, ms, 2.0 * ms};
+  row.bytes = bytes;
+  return row;
+}
+
+Shape shape() {
+  Shape result;
+  result.reference = "fine";
+  result.triangles = 1000000;
+  result.radius = 1.5;
+  result.rows = {shape_row("a-20", 20, SURFACE_FLAT, 0.1, 2.0, 2048),
+                 shape_row("a-20", 20, SURFACE_PHONG, 0.01, 4.0, 4096),
+                 shape_row("a-20", 20, SURFACE_SPHERE, 0.02, 8.0, 8192),
+                 shape_row("a-80", 80, SURFACE_FLAT, 0.009, 3.0, 16384),
+                 shape_row("a-80", 80, SURFACE_PHONG, 0.001, 6.0, 8192),
+                 shape_row("b-90", 90, SURFACE_FLAT, 0.003, 3.0, 1024),
+                 shape_row("b-90", 90, SURFACE_SPHERE, 0.003, 3.0, 1024)};
+  result.frames = {{"trisect", {1.0, 2.0, 3.0}, 5000}};
+  return result;
+}
+
+TEST(ShapeReport, SaysHowManyFlatTrianglesAreAsNear) {
+  const std::vector<std::string> findings = findings_of(shape());
+  ASSERT_EQ(findings.size(), 3U);
+  EXPECT_EQ(findings[0],
+            "a-20, 20 triangles: the nearest curved surface is phong, alpha 0.65, 1.0e-02 off "
+            "(RMS); 80 flat triangles are as near (9.0e-03). It takes 1.3 times their time and "
+            "0.25 times their memory.");
+  EXPECT_EQ(findings[1],
+            "a-80, 80 triangles: the nearest curved surface is phong, alpha 0.65, 1.0e-03 off "
+            "(RMS); 90 flat triangles are the most measured, and not as near (3.0e-03). It takes "
+            "2 times their time and 8 times their memory.");
+  EXPECT_EQ(findings[2],
+            "b-90, 90 triangles: the nearest curved surface is sphere, 3.0e-03 off (RMS), no "
+            "nearer than the flat triangles with 3.0e-03.");
+}
+
+TEST(ShapeReport, IsExactInCsv) {
+  Shape one = shape();
+  one.rows.resize(1);
+  EXPECT_EQ(
+      csv_of(one),
+      R"(model,triangles,surface,rms,p50,p99,to_shape_found,to_shape_bound,to_model_found,to_model_bound,shading_p50,shading_p99,face_p50,face_p99,wrong,outline_mean,outline_max,color_rmse,ssim,relmse,ms_min,ms_median,ms_max,bytes
+a-20,20,"flat",1.0000e-01,5.0000e-02,2.0000e-01,3.0000e-01,3.1000e-01,4.0000e-01,4.1000e-01,2.500e-01,1.500e+00,2.000e+00,1.200e+01,12,0.1250,3.000,1.5,0.987654,1.3000e-03,1.000,2.000,4.000,2048
+)");
+}
+
+TEST(ShapeReport, IsExactAsTables) {
+  Shape one = shape();
+  one.rows.erase(one.rows.begin());
+  one.rows.resize(1);
+  EXPECT_EQ(
+      markdown(table_of(one)),
+      R"(| model | triangles | surface | RMS | p99 | largest | at most | back: largest | at most | shading normal p99 | normal p99 |
+|---|---|---|---|---|---|---|---|---|---|---|
+| a-20 | 20 | phong, alpha 0.65 | 1.0e-02 | 2.0e-02 | 3.00e-02 | 3.10e-02 | 4.00e-02 | 4.10e-02 | 1.5 | 12 |
+)");
+  EXPECT_EQ(
+      markdown(pictures_table_of(one)),
+      R"(| model | surface | wrong pixels | outline | outline, most | RMSE | relMSE | SSIM | ms | KB |
+|---|---|---|---|---|---|---|---|---|---|
+| a-20 | phong, alpha 0.65 | 12 | 0.12 | 3.0 | 1.5 | 1.3e-03 | 0.9877 | 4.0 | 4 |
+)");
+  EXPECT_EQ(markdown(frames_table_of(one)), R"(| drawn by | ms | KB |
+|---|---|---|
+| trisect | 2.0 | 4 |
+)");
+}
+
+TEST(ShapeReport, DrawsEachSurfaceOverItsTriangles) {
+  const std::string script = plot_script(shape(), "svg", "a.svg");
+  EXPECT_NE(script.find("$surface0 << EOD\n20 2 0.1 0.3"), std::string::npos) << script;
+  EXPECT_NE(script.find("$surface2 << EOD\n20 8 0.02 0.06\n90 3 0.003 "), std::string::npos)
+      << script;
 }
 
 Ablation ablation() {

@@ -112,6 +112,44 @@ TEST_F(Reports, SpeedAgainstErrorNeedsNoGnuplotAndNoOpenGl) {
   EXPECT_NE(text.find("| robust, tiles |"), std::string::npos);
 }
 
+TEST_F(Reports, ReportsHowNearModelsComeToAShape) {
+  const std::string coarse = test::asset_path("sphere-20");
+  const std::string fine = test::asset_path("sphere-320");
+  expect_complaint(test::run_trisect({"bench", "shape", coarse, "-o", folder_ / "s"}), 2,
+                   "--reference");
+  expect_complaint(
+      test::run_trisect({"bench", "shape", coarse, "--reference", "none.obj", "-o", folder_ / "s"}),
+      3, "none.obj");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "s"));
+  const test::ProgramRun run =
+      test::run_trisect({"bench", "shape", coarse, "--reference", fine, "--error", "1e-2", "--size",
+                         "80x60", "--runs", "1", "-o", folder_ / "s"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const char* name : {"shape.md", "shape.html", "shape.csv", "shape.svg", "shape.png"}) {
+    EXPECT_GT(std::filesystem::file_size(folder_ / "s" / name), 500U) << name;
+  }
+  std::ifstream file(folder_ / "s" / "shape.json");
+  const auto shape = nlohmann::json::parse(file)["shape"];
+  EXPECT_EQ(shape["triangles"], 320);
+  ASSERT_EQ(shape["models"].size(), 5U);
+  const auto& flat = shape["models"].front();
+  const auto& sphere = shape["models"].back();
+  EXPECT_EQ(sphere["surface"], "sphere");
+  // The reference's own triangles are 0.006 of the radius off the sphere.
+  EXPECT_LT(sphere["distance"]["rms"].get<double>(), 0.006);
+  EXPECT_GT(flat["distance"]["rms"].get<double>(), 0.05);
+  EXPECT_LT(sphere["wrong_pixels"].get<int>(), flat["wrong_pixels"].get<int>());
+  for (const auto& row : shape["models"]) {
+    for (const char* way : {"to_shape", "to_model"}) {
+      const double found = row[way]["found"];
+      EXPECT_LE(row["distance"]["rms"].get<double>(), found);
+      // A hundredth beyond what was found, and the error of the division.
+      EXPECT_LE(row[way]["bound"].get<double>(), 1.011 * found + 0.0101) << row;
+      EXPECT_GE(row[way]["bound"].get<double>(), found);
+    }
+  }
+}
+
 TEST_F(Reports, ReportsWhatEachStepIsWorth) {
   expect_complaint(test::run_trisect({"bench", "ablation", "none.obj", "-o", folder_ / "a"}), 3,
                    "none.obj");

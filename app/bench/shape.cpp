@@ -1,0 +1,172 @@
+#include "app/bench/shape.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <utility>
+
+#include "app/bake/bvh.h"
+#include "app/bake/subpatch_bounds.h"
+#include "app/bench/contender.h"
+#include "app/bench/image_errors.h"
+#include "app/bench/tessellation.h"
+#include "app/cli/interrupt.h"
+#include "app/cli/load_scene.h"
+#include "app/cli/progress_line.h"
+#include "app/crosscheck/frame_comparison.h"
+#include "app/dispatch/accel.h"
+#include "app/dispatch/trace_settings.h"
+#include "app/mesh/mesh_builder.h"
+#include "app/mesh/model_file.h"
+#include "app/mesh/obj_file.h"
+#include "app/tessellation/flat_mesh.h"
+
+namespace trisect::bench {
+namespace {
+
+constexpr std::size_t kSamples = 100'000;
+
+// Distances below this part of the radius count as none.
+constexpr double kResolution = 1e-7;
+
+constexpr SurfaceChoice kFlat{SURFACE_FLAT, 0.65, SHELL_NORMAL};
+
+std::vector<SurfaceChoice> choices() {
+  return {kFlat,
+          {SURFACE_PHONG, 0.5, SHELL_NORMAL},
+          {SURFACE_PHONG, 0.65, SHELL_NORMAL},
+          {SURFACE_PHONG, 0.75, SHELL_NORMAL},
+          {SURFACE_SPHERE, 0.65, SHELL_NORMAL}};
+}
+
+Mesh read_mesh(const std::string& file) {
+  const BusyLine line("reading " + file);
+  return build_mesh(read_model(file), file).mesh;
+}
+
+// The surface as triangles, for distances: flat ones as they are.
+FlatMesh triangles_of(const std::string& model, const Mesh& mesh, const BakedScene& scene,
+                      double error) {
+  ProgressLine line("dividing " + model);
+  const FractionProgress show = [&](double done) { return line.show(done); };
+  return finished(scene.choice.surface == SURFACE_FLAT ? divided_evenly(mesh, scene, 1, show)
+                                                       : divided_to(mesh, scene, error, show));
+}
+
+// Where the surface itself can be farther than its triangles.
+LargestDistance largest(const FlatMesh& from, const Target& to, double radius) {
+  ProgressLine line("measuring distances");
+  LargestDistance found = finished(largest_distance(from, to, kResolution * radius,
+                                                    [&](double done) { return line.show(done); }));
+  found.found /= radius;
+  found.bound = (found.bound + from.bound + to.mesh().bound) / radius;
+  return found;
+}
+
+Samples samples_of(const FlatMesh& from, const Target& to, double radius) {
+  ProgressLine line("measuring distances");
+  Samples samples =
+      finished(sampled(from, to, kSamples, [&](double done) { return line.show(done); }));
+  for (double* length :
+       {&samples.distance.p50, &samples.distance.p99, &samples.distance.max, &samples.rms}) {
+    *length /= radius;
+  }
+  return samples;
+}
+
+// A scene that is drawn with a camera.
+struct Drawn {
+  BakedScene scene;
+  TraceParams params{};
+  std::unique_ptr<Contender> contender;
+  std::vector<double> times;
+};
+
+void add_tree(BakedScene& scene) {
+  const BusyLine line("building the tree");
+  scene.bvh = build_bvh(scene);
+}
+
+std::unique_ptr<Drawn> drawn(const gpu::Device& device, const ShapeOptions& options,
+                             BakedScene scene, const TraceSettings& settings) {
+  auto result = std::make_unique<Drawn>();
+  result->scene = std::move(scene);
+  const AccelRequest request{
+      .width = options.width, .height = options.height, .subgroups = device.subgroup_size() != 0};
+  const Accel accel = chosen_accel(request, Backend::vulkan, result->scene.subpatches.size());
+  if (needs_bvh(accel, false)) add_tree(result->scene);
+  result->params = make_params(result->scene, settings);
+  result->contender =
+      on_vulkan(kernels_for(device, result->scene, {.solver = SOLVER_ROBUST, .accel = accel}),
+                result->params);
+  return result;
+}
+
+}  // namespace
+
+Shape measure_shape(const gpu::Device& device, const ShapeOptions& options) {
+  Shape shape;
+  shape.reference = model_name(options.reference);
+  const Mesh mesh = read_mesh(options.reference);
+  BakedScene scene = bake_showing_progress(mesh, kFlat);
+  shape.triangles = mesh.triangles.size();
+  shape.radius = scene.extent;
+  const FlatMesh flat = triangles_of(options.reference, mesh, scene, 0.0);
+  const Target target(flat);
+  const TraceSettings settings = framed_settings(mesh, scene, options.width, options.height);
+  const std::unique_ptr<Drawn> truth = drawn(device, options, std::move(scene), settings);
+  Frame shown;
+  truth->contender->inspect(shown);
+  const std::unique_ptr<Contender> embree =
+      on_embree(truth->scene, tessellate(truth->scene, 1), truth->params, EmbreeRays::packets);
+  std::vector<double> embree_times;
+
+  std::vector<std::unique_ptr<Drawn>> models;
+  for (const std::string& file : options.models) {
+    const Mesh coarse = read_mesh(file);
+    for (const SurfaceChoice& choice : choices()) {
+      ShapeRow row;
+      row.model = model_name(file);
+      row.triangles = coarse.triangles.size();
+      row.choice = choice;
+      BakedScene baked = bake_showing_progress(coarse, choice);
+      const FlatMesh surface = triangles_of(file, coarse, baked, options.error * shape.radius);
+      row.samples = samples_of(surface, target, shape.radius);
+      row.to_shape = largest(surface, target, shape.radius);
+      row.to_model = largest(flat, Target(surface), shape.radius);
+      models.push_back(drawn(device, options, std::move(baked), settings));
+      Frame frame;
+      models.back()->contender->inspect(frame);
+      const FrameComparison comparison = compare(frame, shown);
+      row.wrong = comparison.hit_mismatches;
+      row.color_rmse = comparison.color_rmse;
+      row.outline = outline_errors(frame, shown);
+      row.similarity = structural_similarity(frame, shown);
+      row.relative = relative_square_error(frame, shown);
+      shape.rows.push_back(std::move(row));
+    }
+  }
+  ProgressLine line("timing frames", options.runs);
+  Frame frame;
+  for (const auto& model : models) model->contender->render(frame);
+  truth->contender->render(frame);
+  embree->render(frame);
+  for (uint32_t run = 0; run < options.runs; ++run) {
+    for (const auto& model : models) {
+      model->times.push_back(take_turn(*model->contender, frame).ms);
+      stop_if_interrupted();
+    }
+    truth->times.push_back(take_turn(*truth->contender, frame).ms);
+    embree_times.push_back(take_turn(*embree, frame).ms);
+    line.show(run + 1);
+  }
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    shape.rows[i].ms = spread_of(models[i]->times);
+    shape.rows[i].bytes = models[i]->contender->bytes();
+  }
+  shape.frames = {{"trisect", spread_of(truth->times), truth->contender->bytes()},
+                  {embree_name(EmbreeRays::packets), spread_of(embree_times), embree->bytes()}};
+  return shape;
+}
+
+}  // namespace trisect::bench
