@@ -35,9 +35,7 @@ model() {
   fi
 }
 
-# Models of which curved triangles should make nothing good: a sphere whose vertices are moved at random by a hundredth of its
-# radius, with normals made from the faces; one whose normals are turned at random by up to some 20 degrees; a cube whose eight
-# corners have one normal each.
+# Models of which curved triangles should make nothing good; the report says which.
 spoilt() {
   python3 - "$work" <<'END'
 import pathlib
@@ -74,12 +72,11 @@ write("cube-smooth", positions, [], alone(faces))
 END
 }
 
-rm -rf "$to"
-mkdir -p "$to"
+mkdir "$work/report"
 parts=()
 # measured NAME REFERENCE MODEL...: of paths.
 measured() {
-  on newer build/release/trisect bench shape "${@:3}" --reference "$2" -o "$to/$1" "${more[@]}" >/dev/null
+  on newer build/release/trisect bench shape "${@:3}" --reference "$2" -o "$work/report/$1" "${more[@]}" >/dev/null
   parts+=("$1")
 }
 for shape in "${shapes[@]}"; do
@@ -98,13 +95,26 @@ fi
   cat <<END
 # How near curved triangles come to a shape
 
-Written by \`scripts/shape.sh\`: the distances between the surfaces of coarse models and fine ones of the same shape, by
-\`trisect bench shape\`. Lengths are over half the diagonal of the shape's bounding box; each part has the tables, with the largest
-distances both ways, bounds that no point exceeds, normals, outlines, pictures, time and memory. The finest models, the shapes, are
-flat triangles themselves, off the sphere by 5e-6. Device: $(jq -r '.facts[0]' "$to/sphere/shape.json").
+Written by \`scripts/shape.sh\`: the distances between the surfaces of coarse models and a fine one of the same shape, by
+\`trisect bench shape\`. Lengths are over half the diagonal of the shape's bounding box. Each part has the tables, with the largest
+distances both ways, bounds that no point exceeds, normals, outlines, pictures, time and memory. The fine models are flat
+triangles themselves: where one stands for a smooth shape, a surface that is exactly that shape is some 1e-5 off it.
+Device: $(jq -r '.facts[0]' "$work/report/sphere/shape.json").
 END
+  if [ "$to" = docs/shape ]; then
+    cat <<END
+
+Of three models curved triangles should make nothing good. sphere-320-noisy: every coordinate of its vertices is moved by chance,
+with a standard deviation of a hundredth of the radius, and normals are made from the faces. sphere-320-turned: the same with
+its normals and a deviation of 0.2, which turns most of them by ten to twenty degrees. cube-smooth: a cube's eight corners have
+one normal each.
+END
+  fi
   for part in "${parts[@]}"; do
     printf '\n## [%s](%s/shape.md)\n\n![Distances over triangles and time, %s](%s/shape.svg)\n\n' "$part" "$part" "$part" "$part"
-    grep '^- .*triangles: ' "$to/$part/shape.md"
+    grep '^- .*triangles: ' "$work/report/$part/shape.md"
   done
-} >"$to/report.md"
+} >"$work/report/report.md"
+rm -rf "$to"
+mkdir -p "$(dirname "$to")"
+mv "$work/report" "$to"

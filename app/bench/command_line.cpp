@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/base/error.h"
 #include "app/bench/commands.h"
 #include "app/cli/command_options.h"
 #include "app/cli/option_groups.h"
@@ -120,6 +121,7 @@ void CommandLine::add_shape() {
       "Measure how near models come to a shape, by flat and by curved triangles, and write a "
       "report with plots");
   add_models(command, shape_.models);
+  command.get_option("MODEL")->required(false);
   command
       .add_option("--reference", shape_.reference,
                   "Fine model of the shape that the others stand for")
@@ -128,6 +130,15 @@ void CommandLine::add_shape() {
       ->check(not_empty())
       ->check(suggest_files({".obj", ".gltf", ".glb", ".ply", ".stl", ".fbx"}))
       ->type_name("FILE");
+  command
+      .add_option("--decimate", shape_.decimate,
+                  "Also measure the reference decimated to so many triangles each")
+      ->group(option_group::kMeasuring)
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->check(number_from_to(1, 16'000'000))
+      ->type_name("N,...");
   command
       .add_option("--error", shape_.error,
                   "How far the triangles by which distances are measured may be off a curved "
@@ -170,6 +181,9 @@ int CommandLine::run() {
     if (text_.runs) options.runs = *text_.runs;
   };
   if (bench_.got_subcommand("shape")) {
+    if (shape_.models.empty() && shape_.decimate.empty()) {
+      throw UsageError("MODEL or --decimate is required.");
+    }
     apply_frames(shape_);
     return bench_shape(shape_);
   }

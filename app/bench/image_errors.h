@@ -12,9 +12,9 @@ namespace trisect::bench {
 // the same size.
 double structural_similarity(const Frame& a, const Frame& b);
 
-// The mean of (a - truth)^2 / (truth^2 + 0.01) over all components in linear light: Rousselle,
-// Knaus and Zwicker's relative mean square error ("Adaptive sampling and reconstruction using
-// greedy error minimization", 2011).
+// The mean of (frame - truth)^2 / (truth^2 + 0.01) over all components in linear light: the
+// relative mean square error, after Rousselle, Knaus and Zwicker ("Adaptive sampling and
+// reconstruction using greedy error minimization", 2011).
 double relative_square_error(const Frame& frame, const Frame& truth);
 
 }  // namespace trisect::bench

@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <memory>
+#include <mutex>
 #include <random>
+#include <span>
 #include <utility>
 
 #include "app/base/interval.h"
 #include "app/base/parallel_rows.h"
+#include "app/mesh/edges.h"
 
 namespace trisect::bench {
 namespace {
@@ -16,38 +21,21 @@ using glm::dvec2;
 using glm::dvec3;
 using glm::uvec3;
 
-struct DirectedEdge {
-  uint32_t from;
-  uint32_t to;
-  uint32_t triangle;
-  glm::length_t k;
-
-  [[nodiscard]] std::pair<uint32_t, uint32_t> ends() const { return {from, to}; }
-};
-
 std::vector<uvec3> neighbours_of(const FlatMesh& mesh) {
   const std::vector<uint32_t> place = first_at_same_place(mesh);
-  std::vector<DirectedEdge> edges;
-  edges.reserve(3 * mesh.triangles.size());
-  for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const uvec3& corners = mesh.triangles[t];
-    for (glm::length_t k = 0; k < 3; ++k) {
-      edges.push_back({place[corners[k]], place[corners[(k + 1) % 3]], t, k});
-    }
-  }
-  std::sort(edges.begin(), edges.end(),
-            [](const auto& a, const auto& b) { return a.ends() < b.ends(); });
-  const auto ends_before = [](const DirectedEdge& edge, const std::pair<uint32_t, uint32_t>& ends) {
-    return edge.ends() < ends;
-  };
+  const std::vector<Side> sides = sides_of(mesh.triangles.size(), [&](uint32_t t) {
+    const uvec3& at = mesh.triangles[t];
+    return std::array{place[at.x], place[at.y], place[at.z]};
+  });
   std::vector<uvec3> across(mesh.triangles.size(), uvec3(Target::kNone));
-  for (const DirectedEdge& edge : edges) {
-    const std::pair<uint32_t, uint32_t> reversed{edge.to, edge.from};
-    const auto other = std::lower_bound(edges.begin(), edges.end(), reversed, ends_before);
-    if (other != edges.end() && other->ends() == reversed) {
-      across[edge.triangle][edge.k] = other->triangle;
+  for_edges(sides, [&](std::span<const Side> edge) {
+    for (const Side& side : edge) {
+      const auto other = std::find_if(edge.begin(), edge.end(), [&](const Side& candidate) {
+        return candidate.forward != side.forward;
+      });
+      if (other != edge.end()) across[side.triangle][side.corner] = other->triangle;
     }
-  }
+  });
   return across;
 }
 
@@ -90,37 +78,31 @@ class Covering {
     if (!look_along_normal(piece.corners)) return kInfinity;
     const NearPoint middle =
         to_.nearest((piece.corners[0] + piece.corners[1] + piece.corners[2]) / 3.0);
-    if (++now_ == 0) {
-      std::fill(met_.begin(), met_.end(), 0);
-      now_ = 1;
-    }
+    ++now_;
     next_.clear();
     meet(middle.triangle);
+    const int way = way_of(seen_corners(middle.triangle));
     double largest = 0.0;
     for (std::size_t i = 0; i < next_.size(); ++i) {
       if (i == kMost) return kInfinity;
       const uint32_t triangle = next_[i];
       const Corners seen = seen_corners(triangle);
-      if (!faces_along(seen)) return kInfinity;
-      const std::vector<dvec3>& over = clipped({seen.begin(), seen.end()});
+      if (way == 0 || way_of(seen) != way) return kInfinity;
+      const std::vector<dvec3>& over = clipped(seen);
       // The first one must overlap the piece, the others may only touch it.
       if (over.empty()) {
         if (i == 0) return kInfinity;
         continue;
       }
       for (const dvec3& point : over) largest = std::max(largest, std::abs(point.z));
-      for (glm::length_t k = 0; k < 3; ++k) {
-        if (clipped(
-                {seen[static_cast<std::size_t>(k)], seen[static_cast<std::size_t>((k + 1) % 3)]})
-                .empty()) {
-          continue;
-        }
-        const uint32_t neighbour = to_.across(triangle, k);
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (clipped(std::array{seen[k], seen[(k + 1) % 3]}).empty()) continue;
+        const uint32_t neighbour = to_.across(triangle, static_cast<glm::length_t>(k));
         if (neighbour == Target::kNone) return kInfinity;
         meet(neighbour);
       }
     }
-    return largest + kMargin * size_;
+    return largest + kMargin * size_ + unevenness_;
   }
 
  private:
@@ -144,8 +126,14 @@ class Covering {
     // A little smaller, so that what ends where the piece does ends beyond it; what is left out is
     // no farther from it than kMargin of the size.
     const dvec2 middle = dvec2(seen((corners[0] + corners[1] + corners[2]) / 3.0));
+    unevenness_ = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
-      outline_[k] = middle + (1.0 - kMargin) * (dvec2(seen(corners[k])) - middle);
+      const dvec3 corner = seen(corners[k]);
+      unevenness_ = std::max(unevenness_, std::abs(corner.z));
+      outline_[k] = middle + (1.0 - kMargin) * (dvec2(corner) - middle);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      edges_[k] = glm::normalize(outline_[(k + 1) % 3] - outline_[k]);
     }
     return true;
   }
@@ -160,20 +148,22 @@ class Covering {
     return {seen(corners[0]), seen(corners[1]), seen(corners[2])};
   }
 
-  static bool faces_along(const Corners& seen) {
+  // 1 if a triangle faces the way of the piece's normal, -1 if it faces the other way, 0 if it is
+  // seen from its edge.
+  static int way_of(const Corners& seen) {
     const dvec3 e = seen[1] - seen[0];
     const dvec3 f = seen[2] - seen[0];
-    return e.x * f.y - e.y * f.x > 1e-9 * std::max(glm::dot(e, e), glm::dot(f, f));
+    const double area = e.x * f.y - e.y * f.x;
+    if (std::abs(area) <= 1e-9 * std::max(glm::dot(e, e), glm::dot(f, f))) return 0;
+    return area > 0.0 ? 1 : -1;
   }
 
   // What of a polygon, or of a line, is over the piece.
-  const std::vector<dvec3>& clipped(std::vector<dvec3> points) {
-    polygon_ = std::move(points);
+  const std::vector<dvec3>& clipped(std::span<const dvec3> points) {
+    polygon_.assign(points.begin(), points.end());
     for (std::size_t k = 0; k < 3 && !polygon_.empty(); ++k) {
-      const dvec2 start = outline_[k];
-      const dvec2 edge = glm::normalize(outline_[(k + 1) % 3] - start);
       const auto inside = [&](const dvec3& p) {
-        return edge.x * (p.y - start.y) - edge.y * (p.x - start.x);
+        return edges_[k].x * (p.y - outline_[k].y) - edges_[k].y * (p.x - outline_[k].x);
       };
       rest_.clear();
       for (std::size_t i = 0; i < polygon_.size(); ++i) {
@@ -204,7 +194,9 @@ class Covering {
   dvec3 y_{0.0};
   dvec3 z_{0.0};
   double size_ = 0.0;
+  double unevenness_ = 0.0;  // how far the piece's corners are off its plane, by roundings
   std::array<dvec2, 3> outline_{};
+  std::array<dvec2, 3> edges_{};  // their directions
   std::vector<dvec3> polygon_;
   std::vector<dvec3> rest_;
 };
@@ -228,17 +220,149 @@ std::array<Piece, 4> quarters_of(const Piece& piece, const Target& to) {
   return quarters;
 }
 
-double largest_at_corners(const Piece& piece) {
-  return std::max({piece.near[0].distance, piece.near[1].distance, piece.near[2].distance});
+// Coverings of a target, for whichever threads ask.
+class Coverings {
+ public:
+  explicit Coverings(const Target& to) : to_(to) {}
+
+  // Calls use(covering), with one that nobody else uses.
+  template <typename Use>
+  void with_one(Use&& use) {
+    std::unique_ptr<Covering> covering;
+    {
+      const std::scoped_lock lock(mutex_);
+      if (!free_.empty()) {
+        covering = std::move(free_.back());
+        free_.pop_back();
+      }
+    }
+    if (!covering) covering = std::make_unique<Covering>(to_);
+    use(*covering);
+    const std::scoped_lock lock(mutex_);
+    free_.push_back(std::move(covering));
+  }
+
+ private:
+  const Target& to_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Covering>> free_;
+};
+
+// A piece may take milliseconds, and a few of them have to keep all cores busy.
+std::size_t chunk_of_pieces(std::size_t count) {
+  return std::clamp<std::size_t>(count / 256, 1, 64);
 }
 
-// As many chunks for each core that their work evens out.
-std::size_t chunk_size(std::size_t count) {
-  return std::max<std::size_t>(count / 64, 64);
-}
+struct BoundedPiece {
+  Piece piece;
+  double bound;
+};
 
-constexpr std::size_t kMostPieces = 2'000'000;
-constexpr int kMostGenerations = 16;
+constexpr std::size_t kMostDivided = 500'000;
+constexpr int kMostDivisions = 16;
+
+class LargestDistanceSearch {
+ public:
+  LargestDistanceSearch(const FlatMesh& from, const Target& to, double resolution,
+                        const FractionProgress& progress)
+      : from_(from), to_(to), resolution_(resolution), progress_(progress), coverings_(to) {}
+
+  std::optional<LargestDistance> run() {
+    if (!look_at_triangles()) return std::nullopt;
+    // Each division has half of what is left of the progress.
+    for (int division = 0; division < kMostDivisions && !open_.empty(); ++division) {
+      if (!divide(1.0 - std::exp2(-1 - division), std::exp2(-2 - division))) return std::nullopt;
+    }
+    for (const BoundedPiece& one : open_) settled_ = std::max(settled_, one.bound);
+    return LargestDistance{found_, std::max(settled_, found_)};
+  }
+
+ private:
+  [[nodiscard]] Progress told(double first, double part, std::size_t of) const {
+    return [this, first, part, of](uint32_t done) {
+      return may_go_on(progress_, first + part * done / static_cast<double>(of));
+    };
+  }
+
+  bool look_at_triangles() {
+    std::vector<NearPoint> near(from_.positions.size());
+    const auto look = [&](std::size_t first, std::size_t end) {
+      for (std::size_t i = first; i < end; ++i) near[i] = to_.nearest(from_.positions[i]);
+    };
+    if (!parallel_chunks(near.size(), kChunk, look, told(0.0, 0.25, near.size()))) return false;
+    const auto piece_of = [&](std::size_t t) {
+      const uvec3& at = from_.triangles[t];
+      return Piece{corners_of(from_, static_cast<uint32_t>(t)),
+                   {near[at.x], near[at.y], near[at.z]}};
+    };
+    for (const uvec3& at : from_.triangles) {
+      found_ = std::max({found_, near[at.x].distance, near[at.y].distance, near[at.z].distance});
+    }
+    return bound(from_.triangles.size(), piece_of, told(0.25, 0.25, from_.triangles.size()));
+  }
+
+  // Divides the open pieces, those with the largest bounds if there are too many.
+  bool divide(double first, double part) {
+    if (open_.size() > kMostDivided) {
+      const auto end = open_.begin() + static_cast<std::ptrdiff_t>(kMostDivided);
+      std::nth_element(open_.begin(), end, open_.end(),
+                       [](const auto& a, const auto& b) { return a.bound > b.bound; });
+      settled_ = std::max(settled_, end->bound);
+      open_.erase(end, open_.end());
+    }
+    std::vector<Piece> pieces(4 * open_.size());
+    const auto quarter = [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const std::array<Piece, 4> quarters = quarters_of(open_[i].piece, to_);
+        std::copy(quarters.begin(), quarters.end(),
+                  pieces.begin() + static_cast<std::ptrdiff_t>(4 * i));
+      }
+    };
+    if (!parallel_chunks(open_.size(), kChunk, quarter, told(first, 0.5 * part, open_.size()))) {
+      return false;
+    }
+    for (const Piece& piece : pieces) {
+      for (const NearPoint& near : piece.near) found_ = std::max(found_, near.distance);
+    }
+    return bound(
+        pieces.size(), [&](std::size_t i) { return pieces[i]; },
+        told(first + 0.5 * part, 0.5 * part, pieces.size()));
+  }
+
+  // Bounds pieces, and leaves those open whose bound is too large.
+  bool bound(std::size_t count, const std::function<Piece(std::size_t)>& piece_of,
+             const Progress& progress) {
+    std::vector<double> bounds(count);
+    const auto bound_some = [&](std::size_t first, std::size_t end) {
+      coverings_.with_one([&](Covering& covering) {
+        for (std::size_t i = first; i < end; ++i) {
+          const Piece piece = piece_of(i);
+          bounds[i] = bound_by_one(piece, to_);
+          if (bounds[i] > found_) bounds[i] = std::min(bounds[i], covering.bound(piece));
+        }
+      });
+    };
+    if (!parallel_chunks(count, chunk_of_pieces(count), bound_some, progress)) return false;
+    open_.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+      if (bounds[i] > 1.01 * found_ + resolution_) {
+        open_.push_back({piece_of(i), bounds[i]});
+      } else {
+        settled_ = std::max(settled_, bounds[i]);
+      }
+    }
+    return true;
+  }
+
+  const FlatMesh& from_;
+  const Target& to_;
+  double resolution_;
+  const FractionProgress& progress_;
+  Coverings coverings_;
+  double found_ = 0.0;
+  double settled_ = 0.0;  // the largest bound of pieces that are not looked at any more
+  std::vector<BoundedPiece> open_;
+};
 
 }  // namespace
 
@@ -247,73 +371,7 @@ Target::Target(const FlatMesh& mesh) : nearest_(mesh), across_(neighbours_of(mes
 std::optional<LargestDistance> largest_distance(const FlatMesh& from, const Target& to,
                                                 double resolution,
                                                 const FractionProgress& progress) {
-  // Half of the progress is the first look at every vertex and triangle.
-  const auto told = [&](double first, double part, std::size_t of) -> Progress {
-    return [&progress, first, part, of](uint32_t done) {
-      return may_go_on(progress, first + part * done / static_cast<double>(of));
-    };
-  };
-  std::vector<NearPoint> near(from.positions.size());
-  if (!parallel_chunks(
-          near.size(), kChunk,
-          [&](std::size_t first, std::size_t end) {
-            for (std::size_t i = first; i < end; ++i) near[i] = to.nearest(from.positions[i]);
-          },
-          told(0.0, 0.25, near.size()))) {
-    return std::nullopt;
-  }
-  std::vector<Piece> pieces(from.triangles.size());
-  LargestDistance largest;
-  for (std::size_t t = 0; t < pieces.size(); ++t) {
-    const uvec3& at = from.triangles[t];
-    pieces[t] = {corners_of(from, static_cast<uint32_t>(t)), {near[at.x], near[at.y], near[at.z]}};
-    largest.found = std::max(largest.found, largest_at_corners(pieces[t]));
-  }
-  double settled = 0.0;  // the largest bound of pieces that need not be looked at further
-  for (int generation = 0; !pieces.empty(); ++generation) {
-    const double enough = 1.01 * largest.found + resolution;
-    std::vector<double> bounds(pieces.size());
-    const auto bound = [&](std::size_t first, std::size_t end) {
-      Covering covering(to);
-      for (std::size_t i = first; i < end; ++i) {
-        bounds[i] = bound_by_one(pieces[i], to);
-        if (bounds[i] > largest.found) bounds[i] = std::min(bounds[i], covering.bound(pieces[i]));
-      }
-    };
-    if (!parallel_chunks(pieces.size(), chunk_size(pieces.size()), bound,
-                         told(generation == 0 ? 0.25 : 0.5, 0.25, pieces.size()))) {
-      return std::nullopt;
-    }
-    std::vector<std::size_t> left;
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      if (bounds[i] > enough) {
-        left.push_back(i);
-      } else {
-        settled = std::max(settled, bounds[i]);
-      }
-    }
-    if (generation == kMostGenerations || 4 * left.size() > kMostPieces) {
-      for (const std::size_t i : left) settled = std::max(settled, bounds[i]);
-      break;
-    }
-    std::vector<Piece> next(4 * left.size());
-    const auto divide = [&](std::size_t first, std::size_t end) {
-      for (std::size_t i = first; i < end; ++i) {
-        const std::array<Piece, 4> quarters = quarters_of(pieces[left[i]], to);
-        std::copy(quarters.begin(), quarters.end(),
-                  next.begin() + static_cast<std::ptrdiff_t>(4 * i));
-      }
-    };
-    if (!parallel_chunks(left.size(), kChunk, divide, told(0.5, 0.5, left.size()))) {
-      return std::nullopt;
-    }
-    pieces = std::move(next);
-    for (const Piece& piece : pieces) {
-      largest.found = std::max(largest.found, largest_at_corners(piece));
-    }
-  }
-  largest.bound = std::max(settled, largest.found);
-  return largest;
+  return LargestDistanceSearch(from, to, resolution, progress).run();
 }
 
 std::optional<Samples> sampled(const FlatMesh& from, const Target& to, std::size_t count,

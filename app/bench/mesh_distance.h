@@ -44,22 +44,23 @@ struct LargestDistance {
   double bound = 0.0;
 };
 
-// Looks for it until `bound` is no more than a hundredth and `resolution`, a length, above `found`,
-// or millions of pieces have been looked at. Triangles of `from` are bounded as follows, and
-// divided in four where that is not enough.
+// Looks for it until `bound` is no more than a hundredth and `resolution`, a length, above `found`.
+// Triangles of `from` are bounded as follows, and divided in four where that is not enough: half a
+// million of them at once, those with the largest bounds, and sixteen times. Where even that is not
+// enough `bound` is larger.
 //
 // 1. The distance to one triangle of the target is convex, so over a triangle it is largest at a
 //    corner.
 // 2. Over a triangle T look along its normal n. Beginning with a triangle of the target that
 //    overlaps T, go to the neighbour across every edge that overlaps T. If all that are met face
-//    the way of n, and no edge that overlaps T is without a neighbour, they cover T: what they
-//    cover of it is closed, and open, since around a point of an edge both triangles cover their
-//    side. Then no point of T is farther from the target than the largest of their heights over T.
-//    T is taken a billionth smaller than it is, and that is added.
+//    the same way along n, and no edge that overlaps T is without a neighbour, they cover T. What
+//    they cover of it is closed; and it is open: around a point of an edge both triangles cover
+//    their side, and around a vertex going from neighbour to neighbour always turns the same way
+//    until it has gone around. Then no point of T is farther from the target than the largest of
+//    their heights over T. T is taken a billionth smaller than it is, and that is added.
 //
-// Roundings of double precision are not bounded; they are a millionth of a millionth of the size of
-// the numbers. Works on all cores; the result does not depend on their number. Nothing if progress
-// said stop.
+// Roundings of double precision are not bounded but for those of T's normal. Works on all cores;
+// the result does not depend on their number. Nothing if progress said stop.
 std::optional<LargestDistance> largest_distance(const FlatMesh& from, const Target& to,
                                                 double resolution,
                                                 const FractionProgress& progress = {});

@@ -1,7 +1,6 @@
 #include "app/bench/nearest_point.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -13,6 +12,8 @@ namespace {
 
 using glm::dvec3;
 
+// Embree's tree is in single precision: it is asked for what is nearer than the nearest so far and
+// this part of the numbers' size, twice what some eight roundings come to.
 constexpr double kSlack = 1e-6;
 
 std::pair<dvec3, dvec3> box_of(const std::vector<dvec3>& points) {
@@ -48,7 +49,11 @@ struct Query {
 bool look_at(RTCPointQueryFunctionArguments* arguments) {
   Query& query = *static_cast<Query*>(arguments->userPtr);
   const NearPoint found = nearest_of_triangle(query.mesh, arguments->primID, query.point);
-  if (!(found.distance < query.best.distance)) return false;
+  // Of several at the same distance the first, whatever the order in which the tree has them.
+  const bool nearer =
+      found.distance < query.best.distance ||
+      (found.distance == query.best.distance && found.triangle < query.best.triangle);
+  if (!nearer) return false;
   query.best = found;
   arguments->query->radius = static_cast<float>(found.distance + query.slack);
   return true;
@@ -62,6 +67,7 @@ NearPoint nearest_of_triangle(const FlatMesh& mesh, uint32_t triangle, const dve
                      mesh.positions[corners.z]);
   const dvec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
   const double area = glm::dot(normal, normal);
+  NearPoint best{kInfinity, triangle, {}};
   if (area > 0.0) {
     // The foot of the perpendicular, if it is within.
     dvec3 weights;
@@ -69,10 +75,13 @@ NearPoint nearest_of_triangle(const FlatMesh& mesh, uint32_t triangle, const dve
     weights.y = glm::dot(glm::cross(p[0] - p[2], point - p[2]), normal) / area;
     weights.z = 1.0 - weights.x - weights.y;
     if (weights.x >= 0.0 && weights.y >= 0.0 && weights.z >= 0.0) {
-      return {std::abs(glm::dot(point - p[0], normal)) / std::sqrt(area), triangle, weights};
+      best = {glm::distance(point, p * weights), triangle, weights};
+      // Of a sliver the foot may be farther off, by roundings, than the edges' nearest points.
+      const dvec3 e = p[1] - p[0];
+      const dvec3 f = p[2] - p[0];
+      if (area > 1e-12 * glm::dot(e, e) * glm::dot(f, f)) return best;
     }
   }
-  NearPoint best{kInfinity, triangle, {}};
   for (glm::length_t k = 0; k < 3; ++k) {
     const glm::length_t next = (k + 1) % 3;
     const dvec3 edge = p[next] - p[k];

@@ -24,15 +24,14 @@ class NearestPoint {
   // mesh: one triangle at least; it must outlive this object. Throws OutOfMemory.
   explicit NearestPoint(const FlatMesh& mesh);
 
-  // In double precision; of several at the same distance any. Thread-safe.
+  // In double precision; of several at the same distance the first. Thread-safe.
   [[nodiscard]] NearPoint to(const glm::dvec3& point) const;
 
   [[nodiscard]] const FlatMesh& mesh() const { return mesh_; }
 
  private:
   const FlatMesh& mesh_;
-  // Embree's tree is in single precision about the middle of the mesh: it is asked for what is
-  // nearer than the nearest so far and this part of the numbers' size, some ten roundings.
+  // The tree's numbers are about the middle of the mesh.
   glm::dvec3 middle_{0.0};
   double extent_ = 0.0;
   EmbreeTriangles triangles_;

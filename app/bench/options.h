@@ -51,7 +51,8 @@ struct AblationOptions : MeasuredModels {
 
 struct ShapeOptions {
   std::vector<std::string> models;
-  std::string reference;  // a fine model of the shape
+  std::string reference;           // a fine model of the shape
+  std::vector<uint32_t> decimate;  // numbers of triangles to which it is decimated as well
   // The most that the triangles by which distances are measured may be off the curved surface, over
   // the shape's radius.
   double error = 1e-4;

@@ -74,15 +74,23 @@ std::vector<Block> report_of(const std::vector<bench::Scene>& scenes,
       "the point that they stand for). outline: from each pixel of the frame's outline to the "
       "true one, in pixels, the mean. RMSE and PSNR: of the colours, in steps of 8 bits and in "
       "decibels. MB read: of the scene by this program's rays on their way to the surface, each "
-      "its own "
-      "loads. KB: the scene without images. front: nothing is both faster and more exact."});
+      "its own loads. KB: the scene without images. front: nothing is both faster and more exact. "
+      "In the plots rings are around what nothing else is before on the axes that are drawn."});
+  if (plots) {
+    for (const uint surface : summarized(scenes)) {
+      blocks.emplace_back(report::Picture{
+          summary_name(surface) + ".svg",
+          fmt::format("Time over distance and over wrong pixels, {}", surface_name(surface))});
+    }
+  }
   for (const bench::Scene& scene : scenes) {
     const std::string name = bench::name_of(scene);
     blocks.emplace_back(
         report::Heading{2, fmt::format("{}, {} ({} patches)", scene.model,
                                        surface_name(scene.surface), scene.patches)});
     if (plots) {
-      blocks.emplace_back(report::Picture{name + ".svg", "Milliseconds over error, " + name});
+      blocks.emplace_back(
+          report::Picture{name + ".svg", "Time over distance and over wrong pixels, " + name});
     }
     blocks.emplace_back(report::Items{bench::findings_of(scene)});
     blocks.emplace_back(bench::table_of(scene));

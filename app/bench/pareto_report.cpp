@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "app/bench/gnuplot.h"
+#include "app/bench/pareto_front.h"
 #include "app/report/columns.h"
 
 namespace trisect::bench {
@@ -119,17 +121,50 @@ std::string joined(const std::vector<std::string>& texts) {
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-// What two panels of time over error are of.
-struct PanelTexts {
-  std::string title;
-  std::string time;       // what their vertical axis has
-  bool relative = false;  // to the fastest robust contender of the same scene
+// A contender in the panels of time over error.
+struct PlotPoint {
+  double p99;  // off the surface, and the largest; NaN if it hits nothing that is to be hit
+  double max;
+  double time;
+  double wrong;  // pixels
 };
 
+// time_of(scene): what time is divided by.
+template <typename TimeOf>
+std::vector<PlotPoint> points_of(const Scene& scene, TimeOf&& time_of) {
+  std::vector<PlotPoint> points;
+  for (const Measurement& one : scene.measurements) {
+    const auto wrong = static_cast<double>(wrong_pixels(one));
+    const bool hits = std::max(one.errors.off.p99, one.errors.off.max) > 0.0 || wrong == 0.0;
+    // No distance, and no wrong pixel, have a place on a logarithmic axis too.
+    const auto on_axis = [&](double distance) {
+      return hits ? std::max(distance, 1e-9) : std::numeric_limits<double>::quiet_NaN();
+    };
+    points.push_back({on_axis(one.errors.off.p99), on_axis(one.errors.off.max),
+                      one.ms.median / time_of(scene), std::max(wrong, 0.5)});
+  }
+  return points;
+}
+
+// The points before which there is no other, as lines of error and time.
+std::string front_of(const std::vector<PlotPoint>& points, double PlotPoint::*error) {
+  std::vector<Point> all;
+  all.reserve(points.size());
+  for (const PlotPoint& point : points) all.push_back({point.*error, point.time});
+  const std::vector<std::optional<std::size_t>> by = dominating(all);
+  std::string lines;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!by[i]) lines += fmt::format("{} {}\n", all[i].error, all[i].ms);
+  }
+  return lines;
+}
+
 // Time over distance off the surface, and time over wrong pixels; a contender's curve breaks off
-// between scenes.
-std::string panels(const std::vector<const Scene*>& scenes, const PanelTexts& texts,
-                   const std::string& terminal, const std::string& file) {
+// between scenes. time: what the vertical axis has. time_of: as above.
+template <typename TimeOf>
+std::string panels(const std::vector<const Scene*>& scenes, const std::string& title,
+                   const std::string& time, TimeOf&& time_of, const std::string& terminal,
+                   const std::string& file) {
   std::vector<std::string> families;
   for (const Scene* scene : scenes) {
     for (const Measurement& one : scene->measurements) {
@@ -138,51 +173,48 @@ std::string panels(const std::vector<const Scene*>& scenes, const PanelTexts& te
       }
     }
   }
-  const auto point = [&](const Scene& scene, const Measurement& one) {
-    const Measurement* robust = texts.relative ? fastest(scene, is_robust) : nullptr;
-    // No distance, and no wrong pixel, have a place on a logarithmic axis too.
-    return fmt::format("{} {} {} {}\n", std::max(one.errors.off.p99, 1e-9),
-                       std::max(one.errors.off.max, 1e-9),
-                       one.ms.median / (robust == nullptr ? 1.0 : robust->ms.median),
-                       std::max(static_cast<double>(wrong_pixels(one)), 0.5));
-  };
-  std::string script = fmt::format("set terminal {}\nset output \"{}\"\n", terminal, file);
-  std::string front;
-  for (std::size_t k = 0; k < families.size(); ++k) {
-    script += fmt::format("$family{} << EOD\n", k);
-    for (const Scene* scene : scenes) {
-      for (const Measurement& one : scene->measurements) {
-        if (one.family != families[k]) continue;
-        script += point(*scene, one);
-        if (!one.dominated_by) front += point(*scene, one);
+  std::vector<std::string> curves(families.size());
+  std::string near_front;
+  std::string right_front;
+  for (const Scene* scene : scenes) {
+    const std::vector<PlotPoint> points = points_of(*scene, time_of);
+    near_front += front_of(points, &PlotPoint::p99);
+    right_front += front_of(points, &PlotPoint::wrong);
+    for (std::size_t k = 0; k < families.size(); ++k) {
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        if (scene->measurements[i].family != families[k]) continue;
+        const PlotPoint& point = points[i];
+        curves[k] += fmt::format("{} {} {} {}\n", point.p99, point.max, point.time, point.wrong);
       }
-      script += "\n";
+      curves[k] += '\n';
     }
-    script += "EOD\n";
+  }
+  std::string script = fmt::format("set terminal {}\nset output \"{}\"\n", terminal, file);
+  for (std::size_t k = 0; k < families.size(); ++k) {
+    script += fmt::format("$family{} << EOD\n{}EOD\n", k, curves[k]);
   }
   script += fmt::format(
-      "$front << EOD\n{}EOD\n"
+      "$near << EOD\n{}EOD\n$right << EOD\n{}EOD\n"
       "set multiplot layout 1,2 title \"{}\"\n"
-      "set logscale xy\nset offsets graph 0.05, graph 0.05, 0, 0\nset grid\nset format x "
-      "\"10^{{%L}}\"\n"
-      "set ylabel \"{}\"\n"
+      "set logscale xy\nset offsets graph 0.05, graph 0.05, 0, 0\nset grid\n"
+      "set format x \"10^{{%L}}\"\nset ylabel \"{}\"\n"
       "set key outside bottom center horizontal maxcols 2\n",
-      front, texts.title, texts.time);
-  const auto curves = [&](const char* columns, const char* style, const char* of_front) {
+      near_front, right_front, title, time);
+  const auto plot = [&](const char* columns, const char* style, const char* front) {
     std::string text = "plot ";
     for (std::size_t k = 0; k < families.size(); ++k) {
       text += fmt::format("$family{} using {} with {} pt {} lc rgb {} title \"{}\", ", k, columns,
                           style, k + 1, gnuplot_color(k, families.size()), families[k]);
     }
     return text + fmt::format(
-                      "$front using {} with points pt 6 ps 2.5 lc rgb \"black\" title \"Pareto "
+                      "${} using 1:2 with points pt 6 ps 2.5 lc rgb \"black\" title \"Pareto "
                       "front\"\n",
-                      of_front);
+                      front);
   };
   script += "set xlabel \"off the surface / radius: 99 of 100 hits, line to the largest\"\n" +
-            curves("1:3:1:2", "xerrorlines", "1:3");
+            plot("1:3:1:2", "xerrorlines", "near");
   script += "set xlabel \"wrong or missed pixels (none: drawn at 0.5)\"\nset format x \"%g\"\n" +
-            curves("4:3", "linespoints", "4:3");
+            plot("4:3", "linespoints", "right");
   return script + "unset multiplot\n";
 }
 
@@ -268,9 +300,8 @@ report::Table table_of(const Scene& scene) {
 std::string plot_script(const Scene& scene, const std::string& terminal, const std::string& file) {
   return panels(
       {&scene},
-      {fmt::format("{}, {} patches, {}", scene.model, scene.patches, surface_name(scene.surface)),
-       "milliseconds a frame", false},
-      terminal, file);
+      fmt::format("{}, {} patches, {}", scene.model, scene.patches, surface_name(scene.surface)),
+      "milliseconds a frame", [](const Scene&) { return 1.0; }, terminal, file);
 }
 
 std::string summary_script(const std::vector<Scene>& scenes, uint surface,
@@ -278,14 +309,14 @@ std::string summary_script(const std::vector<Scene>& scenes, uint surface,
   std::vector<const Scene*> shown;
   std::vector<std::string> models;
   for (const Scene& scene : scenes) {
-    if (scene.surface != surface) continue;
+    if (scene.surface != surface || fastest(scene, is_robust) == nullptr) continue;
     shown.push_back(&scene);
     models.push_back(scene.model);
   }
-  return panels(shown,
-                {fmt::format("{}: {}", surface_name(surface), fmt::join(models, ", ")),
-                 "times the robust solver's milliseconds", true},
-                terminal, file);
+  return panels(
+      shown, fmt::format("{}: {}", surface_name(surface), fmt::join(models, ", ")),
+      "times the robust solver's milliseconds",
+      [](const Scene& scene) { return fastest(scene, is_robust)->ms.median; }, terminal, file);
 }
 
 }  // namespace trisect::bench

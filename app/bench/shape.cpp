@@ -7,11 +7,14 @@
 
 #include "app/bake/bvh.h"
 #include "app/bake/subpatch_bounds.h"
+#include "app/base/error.h"
 #include "app/bench/contender.h"
+#include "app/bench/decimated.h"
 #include "app/bench/image_errors.h"
 #include "app/bench/tessellation.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/load_scene.h"
+#include "app/cli/named.h"
 #include "app/cli/progress_line.h"
 #include "app/crosscheck/frame_comparison.h"
 #include "app/dispatch/accel.h"
@@ -49,13 +52,41 @@ FlatMesh triangles_of(const std::string& model, const Mesh& mesh, const BakedSce
                       double error) {
   ProgressLine line("dividing " + model);
   const FractionProgress show = [&](double done) { return line.show(done); };
-  return finished(scene.choice.surface == SURFACE_FLAT ? divided_evenly(mesh, scene, 1, show)
-                                                       : divided_to(mesh, scene, error, show));
+  return named(model, [&] {
+    return finished(scene.choice.surface == SURFACE_FLAT ? divided_evenly(mesh, scene, 1, show)
+                                                         : divided_to(mesh, scene, error, show));
+  });
 }
 
-// Where the surface itself can be farther than its triangles.
-LargestDistance largest(const FlatMesh& from, const Target& to, double radius) {
-  ProgressLine line("measuring distances");
+BakedScene baked(const std::string& model, const Mesh& mesh, const SurfaceChoice& choice) {
+  return named(model, [&] { return bake_showing_progress(mesh, choice); });
+}
+
+// Distances between models that are apart say nothing about their shape.
+void expect_to_meet(const std::string& model, const Mesh& mesh, const std::string& reference,
+                    const Mesh& fine) {
+  const auto box = [](const Mesh& of) {
+    std::pair<glm::dvec3, glm::dvec3> low_and_high{of.positions.front(), of.positions.front()};
+    for (const glm::dvec3& position : of.positions) {
+      low_and_high.first = glm::min(low_and_high.first, position);
+      low_and_high.second = glm::max(low_and_high.second, position);
+    }
+    return low_and_high;
+  };
+  const auto [low, high] = box(mesh);
+  const auto [fine_low, fine_high] = box(fine);
+  if (glm::all(glm::lessThanEqual(low, fine_high)) &&
+      glm::all(glm::lessThanEqual(fine_low, high))) {
+    return;
+  }
+  throw InputError(
+      fmt::format("{}: is not where {} is: their bounding boxes do not meet.", model, reference));
+}
+
+// Bounded for the surfaces themselves, which can be farther off than their triangles.
+LargestDistance largest(const std::string& model, const FlatMesh& from, const Target& to,
+                        double radius) {
+  ProgressLine line("measuring " + model);
   LargestDistance found = finished(largest_distance(from, to, kResolution * radius,
                                                     [&](double done) { return line.show(done); }));
   found.found /= radius;
@@ -63,8 +94,9 @@ LargestDistance largest(const FlatMesh& from, const Target& to, double radius) {
   return found;
 }
 
-Samples samples_of(const FlatMesh& from, const Target& to, double radius) {
-  ProgressLine line("measuring distances");
+Samples samples_of(const std::string& model, const FlatMesh& from, const Target& to,
+                   double radius) {
+  ProgressLine line("measuring " + model);
   Samples samples =
       finished(sampled(from, to, kSamples, [&](double done) { return line.show(done); }));
   for (double* length :
@@ -78,9 +110,23 @@ Samples samples_of(const FlatMesh& from, const Target& to, double radius) {
 struct Drawn {
   BakedScene scene;
   TraceParams params{};
+  Accel accel = Accel::list;
   std::unique_ptr<Contender> contender;
   std::vector<double> times;
 };
+
+std::unique_ptr<Contender> contender_for(const gpu::Device& device, const Drawn& drawn) {
+  return on_vulkan(
+      kernels_for(device, drawn.scene, {.solver = SOLVER_ROBUST, .accel = drawn.accel}),
+      drawn.params);
+}
+
+// With AOVs. The buffers for them are given back.
+Frame frame_of(const gpu::Device& device, const Drawn& drawn) {
+  Frame frame;
+  contender_for(device, drawn)->inspect(frame);
+  return frame;
+}
 
 void add_tree(BakedScene& scene) {
   const BusyLine line("building the tree");
@@ -93,13 +139,20 @@ std::unique_ptr<Drawn> drawn(const gpu::Device& device, const ShapeOptions& opti
   result->scene = std::move(scene);
   const AccelRequest request{
       .width = options.width, .height = options.height, .subgroups = device.subgroup_size() != 0};
-  const Accel accel = chosen_accel(request, Backend::vulkan, result->scene.subpatches.size());
-  if (needs_bvh(accel, false)) add_tree(result->scene);
+  result->accel = chosen_accel(request, Backend::vulkan, result->scene.subpatches.size());
+  if (needs_bvh(result->accel, false)) add_tree(result->scene);
   result->params = make_params(result->scene, settings);
-  result->contender =
-      on_vulkan(kernels_for(device, result->scene, {.solver = SOLVER_ROBUST, .accel = accel}),
-                result->params);
+  result->contender = contender_for(device, *result);
   return result;
+}
+
+void compare_pictures(const Frame& frame, const Frame& shown, ShapeRow& row) {
+  const FrameComparison comparison = compare(frame, shown);
+  row.wrong = comparison.hit_mismatches;
+  row.color_rmse = comparison.color_rmse;
+  row.outline = outline_errors(frame, shown);
+  row.similarity = structural_similarity(frame, shown);
+  row.relative = relative_square_error(frame, shown);
 }
 
 }  // namespace
@@ -108,43 +161,49 @@ Shape measure_shape(const gpu::Device& device, const ShapeOptions& options) {
   Shape shape;
   shape.reference = model_name(options.reference);
   const Mesh mesh = read_mesh(options.reference);
-  BakedScene scene = bake_showing_progress(mesh, kFlat);
+  BakedScene scene = baked(options.reference, mesh, kFlat);
   shape.triangles = mesh.triangles.size();
   shape.radius = scene.extent;
   const FlatMesh flat = triangles_of(options.reference, mesh, scene, 0.0);
   const Target target(flat);
   const TraceSettings settings = framed_settings(mesh, scene, options.width, options.height);
   const std::unique_ptr<Drawn> truth = drawn(device, options, std::move(scene), settings);
-  Frame shown;
-  truth->contender->inspect(shown);
+  const Frame shown = frame_of(device, *truth);
   const std::unique_ptr<Contender> embree =
       on_embree(truth->scene, tessellate(truth->scene, 1), truth->params, EmbreeRays::packets);
   std::vector<double> embree_times;
 
   std::vector<std::unique_ptr<Drawn>> models;
-  for (const std::string& file : options.models) {
-    const Mesh coarse = read_mesh(file);
+  const auto measure = [&](const std::string& name, const Mesh& coarse) {
     for (const SurfaceChoice& choice : choices()) {
       ShapeRow row;
-      row.model = model_name(file);
+      row.model = name;
       row.triangles = coarse.triangles.size();
       row.choice = choice;
-      BakedScene baked = bake_showing_progress(coarse, choice);
-      const FlatMesh surface = triangles_of(file, coarse, baked, options.error * shape.radius);
-      row.samples = samples_of(surface, target, shape.radius);
-      row.to_shape = largest(surface, target, shape.radius);
-      row.to_model = largest(flat, Target(surface), shape.radius);
-      models.push_back(drawn(device, options, std::move(baked), settings));
-      Frame frame;
-      models.back()->contender->inspect(frame);
-      const FrameComparison comparison = compare(frame, shown);
-      row.wrong = comparison.hit_mismatches;
-      row.color_rmse = comparison.color_rmse;
-      row.outline = outline_errors(frame, shown);
-      row.similarity = structural_similarity(frame, shown);
-      row.relative = relative_square_error(frame, shown);
+      BakedScene coarse_scene = baked(name, coarse, choice);
+      const FlatMesh surface =
+          triangles_of(name, coarse, coarse_scene, options.error * shape.radius);
+      row.off_surface = surface.bound / shape.radius;
+      row.samples = samples_of(name, surface, target, shape.radius);
+      row.to_shape = largest(name, surface, target, shape.radius);
+      row.to_model = largest(name, flat, Target(surface), shape.radius);
+      models.push_back(drawn(device, options, std::move(coarse_scene), settings));
+      row.accel = models.back()->accel;
+      compare_pictures(frame_of(device, *models.back()), shown, row);
       shape.rows.push_back(std::move(row));
     }
+  };
+  for (const std::string& file : options.models) {
+    const Mesh coarse = read_mesh(file);
+    expect_to_meet(file, coarse, options.reference, mesh);
+    measure(model_name(file), coarse);
+  }
+  for (const uint32_t count : options.decimate) {
+    const Mesh coarse = [&] {
+      const BusyLine line("decimating " + options.reference);
+      return decimated(flat, count, options.reference);
+    }();
+    measure(fmt::format("{}-{}", shape.reference, coarse.triangles.size()), coarse);
   }
   ProgressLine line("timing frames", options.runs);
   Frame frame;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/base/error.h"
+#include "app/base/threads.h"
 #include "app/bench/commands.h"
 #include "app/bench/gnuplot.h"
 #include "app/bench/report_files.h"
@@ -24,7 +25,7 @@ namespace {
 using report::Block;
 
 std::vector<Block> report_of(const bench::Shape& shape, const std::vector<std::string>& facts,
-                             const ShapeOptions& options) {
+                             bool plots) {
   std::vector<Block> blocks{
       report::Heading{1, fmt::format("Nearness to a shape: {}", shape.reference)},
       report::Items{facts},
@@ -33,28 +34,29 @@ std::vector<Block> report_of(const bench::Shape& shape, const std::vector<std::s
           "diagonal of its bounding box.",
           shape.triangles, shape.reference, shape.radius)},
       report::Items{bench::findings_of(shape)}};
-  if (options.plots) {
+  if (plots) {
     blocks.emplace_back(report::Picture{"shape.svg", "Distances over triangles and time"});
   }
   blocks.insert(
       blocks.end(),
       {report::Heading{2, "Distances"},
-       report::Paragraph{fmt::format(
-           "Measured on flat triangles that are off a curved surface by {:g} at most. RMS, p99: of "
-           "the distance to the shape of points that are spread evenly over them by chance. "
-           "largest: the largest distance that was found. at most: no "
-           "point of the surface is farther off. back: from the shape to the surface. shading "
-           "normal, normal: degrees between the model's interpolated normal, or the surface's, and "
-           "the shape's interpolated one.",
-           options.error)},
+       report::Paragraph{
+           "Distances are measured on flat triangles that stand for a curved surface. measured to: "
+           "no point of the surface is farther from them, and what is less cannot be told. RMS, "
+           "p99: of the distance to the shape of points that are spread evenly over them by "
+           "chance. largest: the largest distance that was found. at most: no point of the surface "
+           "is farther off. back: from the shape to the surface. shading normal, normal: degrees "
+           "between the model's interpolated normal, or that of the flat triangles, and the "
+           "shape's interpolated one."},
        bench::table_of(shape), report::Heading{2, "Pictures"},
        report::Paragraph{
            "One view. Flat triangles are shaded by the interpolated normals too. wrong pixels: "
            "those that only one of both hits. outline: from each pixel of the outline to the "
-           "shape's, in pixels, the mean. RMSE: of the colours in steps of 8 bits. relMSE: the "
-           "mean of the squares of their differences in linear light over 0.01 and the square of "
-           "the shape's (Rousselle, Knaus and Zwicker 2011). SSIM: structural similarity (Wang, "
-           "Bovik, Sheikh and Simoncelli 2004). ms: of a frame, the median. KB: the scene without "
+           "shape's, in pixels, the mean. Over all pixels, the background among them, RMSE: of "
+           "the colours in steps of 8 bits; relMSE: the mean of the squares of their differences "
+           "in linear light over 0.01 and the square of the shape's (after Rousselle, Knaus and "
+           "Zwicker 2011); SSIM: structural similarity (Wang, Bovik, Sheikh and Simoncelli 2004). "
+           "accel: what rays are tried against. ms: of a frame, the median. KB: the scene without "
            "images."},
        bench::pictures_table_of(shape),
        report::Paragraph{"The shape's own triangles, in the same view:"},
@@ -81,13 +83,14 @@ int bench_shape(const ShapeOptions& options) {
     });
   }
   const std::vector<std::string> facts{
-      fmt::format("{}, {}", device.report().name, device.report().driver), program_and_date(),
+      fmt::format("{}, {}", device.report().name, device.report().driver),
+      fmt::format("CPU: {} threads", worker_threads()), program_and_date(),
       fmt::format("{}x{} pixels, {} frames each after a warm-up, in turns", options.width,
                   options.height, options.runs)};
   folder.write("shape.csv",
                fmt::format("# {}\n{}", fmt::join(facts, "\n# "), bench::csv_of(shape)));
   folder.write("shape.json", json_text({{"facts", facts}, {"shape", bench::json_of(shape)}}));
-  const std::vector<Block> blocks = report_of(shape, facts, options);
+  const std::vector<Block> blocks = report_of(shape, facts, options.plots);
   folder.write("shape.md", report::markdown_of(blocks));
   folder.write("shape.html",
                report::html_of("Nearness to a shape: " + shape.reference, blocks, folder.path()));

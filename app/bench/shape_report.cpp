@@ -25,6 +25,7 @@ const Columns<ShapeRow>& shape_columns() {
       {{"model", "{}"}, "model", {"model", "{}"}, [](auto& r) { return r.model; }},
       {{"triangles", "{}"}, "triangles", {"triangles", "{}"}, [](auto& r) { return r.triangles; }},
       {{"surface", "\"{}\""}, "surface", {"surface", "{}"}, [](auto& r) { return surface_text(r.choice); }},
+      {{"off_surface", "{:.4e}"}, "off_surface", {"measured to", "{:.0e}"}, [](auto& r) { return r.off_surface; }},
       {{"rms", "{:.4e}"}, "distance.rms", {"RMS", "{:.1e}"}, [](auto& r) { return r.samples.rms; }},
       {{"p50", "{:.4e}"}, "distance.p50", {}, [](auto& r) { return r.samples.distance.p50; }},
       {{"p99", "{:.4e}"}, "distance.p99", {"p99", "{:.1e}"}, [](auto& r) { return r.samples.distance.p99; }},
@@ -44,6 +45,7 @@ const Columns<ShapeRow>& shape_columns() {
       {{"color_rmse", "{:.5g}"}, "color_rmse", {}, [](auto& r) { return r.color_rmse; }},
       {{"ssim", "{:.6f}"}, "ssim", {}, [](auto& r) { return r.similarity; }},
       {{"relmse", "{:.4e}"}, "relmse", {}, [](auto& r) { return r.relative; }},
+      {{"accel", "{}"}, "accel", {}, [](auto& r) { return accel_name(r.accel); }},
       {{"ms_min", "{:.3f}"}, "ms.min", {}, [](auto& r) { return r.ms.min; }},
       {{"ms_median", "{:.3f}"}, "ms.median", {}, [](auto& r) { return r.ms.median; }},
       {{"ms_max", "{:.3f}"}, "ms.max", {}, [](auto& r) { return r.ms.max; }},
@@ -64,6 +66,7 @@ const Columns<ShapeRow>& picture_columns() {
       {{}, "", {"RMSE", "{:.2g}"}, [](auto& r) { return r.color_rmse; }},
       {{}, "", {"relMSE", "{:.1e}"}, [](auto& r) { return r.relative; }},
       {{}, "", {"SSIM", "{:.4f}"}, [](auto& r) { return r.similarity; }},
+      {{}, "", {"accel", "{}"}, [](auto& r) { return accel_name(r.accel); }},
       {{}, "", {"ms", "{:.1f}"}, [](auto& r) { return r.ms.median; }},
       {{}, "", {"KB", "{}"}, [](auto& r) { return r.bytes / 1024; }},
   };
@@ -71,11 +74,21 @@ const Columns<ShapeRow>& picture_columns() {
   return columns;
 }
 
+// The RMS, or what can be told, if that is more.
+double surely_off(const ShapeRow& row) {
+  return std::max(row.samples.rms, row.off_surface);
+}
+
+std::string distance_text(const ShapeRow& row) {
+  return row.samples.rms < row.off_surface ? fmt::format("less than {:.1e} off", row.off_surface)
+                                           : fmt::format("{:.1e} off", row.samples.rms);
+}
+
 // The flat triangles of the fewest that are as near to the shape; null if none are.
 const ShapeRow* flat_as_near(const Shape& shape, const ShapeRow& row) {
   const ShapeRow* least = nullptr;
   for (const ShapeRow& flat : shape.rows) {
-    if (!is_flat(flat) || flat.samples.rms > row.samples.rms) continue;
+    if (!is_flat(flat) || surely_off(flat) > surely_off(row)) continue;
     if (least == nullptr || flat.triangles < least->triangles) least = &flat;
   }
   return least;
@@ -91,19 +104,19 @@ const ShapeRow& finest_flat(const Shape& shape) {
 
 std::string sentence_about(const Shape& shape, const ShapeRow& row, const ShapeRow& own_flat) {
   const std::string begin =
-      fmt::format("{}, {} triangles: the nearest curved surface is {}, {:.1e} off (RMS)", row.model,
-                  row.triangles, surface_text(row.choice), row.samples.rms);
-  if (row.samples.rms >= own_flat.samples.rms) {
-    return fmt::format("{}, no nearer than the flat triangles with {:.1e}.", begin,
-                       own_flat.samples.rms);
+      fmt::format("{}, {} triangles: the nearest curved surface is {}, {} (RMS)", row.model,
+                  row.triangles, surface_text(row.choice), distance_text(row));
+  if (surely_off(row) >= surely_off(own_flat)) {
+    return fmt::format("{}, no nearer than the flat triangles, {}.", begin,
+                       distance_text(own_flat));
   }
   const ShapeRow* near = flat_as_near(shape, row);
   const ShapeRow& flat = near == nullptr ? finest_flat(shape) : *near;
   return fmt::format(
-      "{}; {} flat triangles are {} ({:.1e}). It takes {:.2g} times their time and {:.2g} times "
-      "their memory.",
+      "{}; {} flat triangles are {} ({}). It takes {:.2g} times their time and {:.2g} times their "
+      "memory.",
       begin, flat.triangles, near == nullptr ? "the most measured, and not as near" : "as near",
-      flat.samples.rms, row.ms.median / flat.ms.median,
+      distance_text(flat), row.ms.median / flat.ms.median,
       static_cast<double>(row.bytes) / static_cast<double>(flat.bytes));
 }
 
@@ -154,7 +167,7 @@ std::vector<std::string> findings_of(const Shape& shape) {
   for (auto first = shape.rows.begin(); first != shape.rows.end();) {
     const auto end = std::find_if(first + 1, shape.rows.end(), is_flat);
     const auto nearest = std::min_element(
-        first + 1, end, [](const auto& a, const auto& b) { return a.samples.rms < b.samples.rms; });
+        first + 1, end, [](const auto& a, const auto& b) { return surely_off(a) < surely_off(b); });
     if (nearest != end) findings.push_back(sentence_about(shape, *nearest, *first));
     first = end;
   }

@@ -141,6 +141,8 @@ const std::map<std::string, CommandTexts>& texts() {
         {{"Three spheres against one of a million triangles",
           "trisect bench shape sphere-20.obj sphere-80.obj sphere-320.obj --reference fine.obj -o "
           "shape"},
+         {"A scan decimated to three numbers of triangles",
+          "trisect bench shape --reference scan.ply --decimate 500,2000,8000 -o shape"},
          {"Without plots, with distances down to a millionth of the radius",
           "trisect bench shape coarse.glb --reference fine.glb --error 1e-6 --no-plots -o "
           "shape"}}}},

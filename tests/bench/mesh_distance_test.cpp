@@ -8,9 +8,11 @@
 #include <functional>
 #include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
-#include "app/bench/image_errors.h"
+#include "app/base/threads.h"
+#include "app/bench/decimated.h"
 #include "app/bench/nearest_point.h"
 
 namespace trisect::bench {
@@ -93,11 +95,17 @@ LargestDistance largest(const FlatMesh& from, const FlatMesh& to, double resolut
   return largest_distance(from, Target(to), resolution).value();
 }
 
-// Bounds must hold, and be near what was found.
+// The search ends when the bound is a hundredth and the resolution above what was found.
+void expect_close(const LargestDistance& distance, double resolution = 1e-6) {
+  EXPECT_GE(distance.bound, distance.found);
+  EXPECT_LE(distance.bound, 1.01 * distance.found + resolution);
+}
+
+// The largest distance lies between these two, and is bounded closely.
 void expect_between(const LargestDistance& distance, double least, double most) {
   EXPECT_LE(distance.found, most);
   EXPECT_GE(distance.bound, least);
-  EXPECT_GE(distance.found, 0.98 * distance.bound - 2e-6);
+  expect_close(distance);
 }
 
 TEST(NearestPoint, IsThatOfASearchOfAllTriangles) {
@@ -158,8 +166,9 @@ TEST(LargestDistance, HoldsForEveryPointOfASurface) {
   const FlatMesh fine = grid_of_heights(20, -1.0, 1.0, wave);
   for (const auto& [from, to] : {std::pair{&coarse, &fine}, std::pair{&fine, &coarse}}) {
     const double sampled_largest = largest_of_many(*from, *to);
-    // Between those points it is a little more.
-    expect_between(largest(*from, *to), sampled_largest, 1.1 * sampled_largest);
+    const LargestDistance distance = largest(*from, *to);
+    EXPECT_GE(distance.bound, sampled_largest);
+    expect_close(distance);
   }
 }
 
@@ -169,8 +178,21 @@ TEST(LargestDistance, IsBoundedCloselyWhereSurfacesAreNear) {
   const FlatMesh other =
       grid_of_heights(17, -1.0, 1.0, [](const dvec2& at) { return wave(at) + 1e-5 * at.x; });
   const LargestDistance distance = largest(one, other);
-  EXPECT_LE(distance.bound, 1.02 * distance.found + 1e-6);
   EXPECT_GE(distance.bound, largest_of_many(one, other));
+  expect_close(distance);
+  // Looked at from the other side, too.
+  FlatMesh turned = other;
+  for (uvec3& triangle : turned.triangles) std::swap(triangle.x, triangle.y);
+  expect_close(largest(one, turned));
+  // Triangles with vertices of their own, at the same places, are neighbours as well.
+  FlatMesh split;
+  for (const uvec3& triangle : other.triangles) {
+    const auto first = static_cast<uint32_t>(split.positions.size());
+    for (glm::length_t k = 0; k < 3; ++k) split.positions.push_back(other.positions[triangle[k]]);
+    split.triangles.emplace_back(first, first + 1, first + 2);
+  }
+  split.normals.assign(split.positions.size(), {0.0F, 0.0F, 1.0F});
+  expect_close(largest(one, split));
 }
 
 // The same where there are too many triangles over each of the surface's.
@@ -179,8 +201,9 @@ TEST(LargestDistance, IsBoundedCloselyByQuarters) {
   const FlatMesh fine =
       grid_of_heights(180, -1.0, 1.0, [](const dvec2& at) { return 1e-4 * wave(at); });
   const LargestDistance distance = largest(plane, fine, 1e-7);
-  EXPECT_NEAR(distance.found, 1e-5, 2e-7);
-  EXPECT_LE(distance.bound, 1.02 * distance.found + 1e-7);
+  // The wave's height; its top is hit by vertices to a hundredth.
+  EXPECT_NEAR(distance.found, 1e-5, 1e-7);
+  expect_close(distance, 1e-7);
 }
 
 // What the target does not cover is not taken for covered: under a hole, a fold and a crack.
@@ -237,6 +260,63 @@ TEST(SampledDistances, AreKnownBetweenPlanes) {
   EXPECT_NEAR(slope.shading_degrees.p50, 0.0, 1e-6);
 }
 
+// A triangle so thin that its normal is one of roundings.
+TEST(LargestDistance, HoldsForSlivers) {
+  const FlatMesh fine =
+      grid_of_heights(30, -1.0, 1.0, [](const dvec2& at) { return 1e-3 * wave(at); });
+  for (const double width : {1e-3, 1e-6, 1e-8, 1e-9, 1e-12, 0.0}) {
+    FlatMesh sliver;
+    sliver.positions = {{-0.7, -0.31, 0.1}, {0.63, 0.29, -0.2}, {0.0, width, 0.05 * width}};
+    sliver.positions[2] += 0.4 * sliver.positions[0] + 0.6 * sliver.positions[1];
+    sliver.normals.assign(3, {0.0F, 0.0F, 1.0F});
+    sliver.triangles = {{0, 1, 2}};
+    const LargestDistance distance = largest(sliver, fine);
+    EXPECT_GE(distance.bound, largest_of_many(sliver, fine)) << width;
+    expect_close(distance);
+    // The other way it is a line, as far from the corners of the grid as they are from its ends.
+    const LargestDistance back = largest(fine, sliver);
+    EXPECT_GE(back.bound, largest_of_many(fine, sliver)) << width;
+    expect_close(back);
+  }
+}
+
+TEST(LargestDistance, IsTheSameAtEveryScaleAndOnEveryNumberOfThreads) {
+  const FlatMesh coarse = grid_of_heights(4, -1.0, 1.0, wave);
+  const FlatMesh fine = grid_of_heights(20, -1.0, 1.0, wave);
+  const LargestDistance distance = largest(fine, coarse);
+  set_worker_threads(1);
+  const LargestDistance alone = largest(fine, coarse);
+  set_worker_threads(0);
+  EXPECT_EQ(alone.found, distance.found);
+  EXPECT_EQ(alone.bound, distance.bound);
+  const auto scaled = [](FlatMesh mesh, double scale) {
+    for (dvec3& position : mesh.positions) position *= scale;
+    return mesh;
+  };
+  // Powers of two change no digit.
+  for (const double scale : {std::exp2(-30), std::exp2(30)}) {
+    const FlatMesh large = scaled(coarse, scale);
+    const LargestDistance other =
+        largest_distance(scaled(fine, scale), Target(large), 1e-6 * scale).value();
+    EXPECT_EQ(other.found, scale * distance.found);
+    EXPECT_EQ(other.bound, scale * distance.bound);
+  }
+}
+
+TEST(LargestDistance, TellsItsProgressForward) {
+  const FlatMesh plane = grid_of_heights(1, -1.0, 1.0, flat);
+  const FlatMesh fine = grid_of_heights(180, -1.0, 1.0, wave);
+  double last = 0.0;
+  const auto told = [&](double done) {
+    EXPECT_GE(done, last);
+    EXPECT_LE(done, 1.0);
+    last = done;
+    return true;
+  };
+  ASSERT_TRUE(largest_distance(plane, Target(fine), 1e-6, told));
+  EXPECT_GT(last, 0.5);
+}
+
 TEST(Distances, EndWhenTheyAreStopped) {
   const FlatMesh plane = grid_of_heights(2, 0.0, 1.0, flat);
   const Target target(plane);
@@ -245,28 +325,19 @@ TEST(Distances, EndWhenTheyAreStopped) {
   EXPECT_FALSE(sampled(plane, target, 10, stop));
 }
 
-Frame frame_of_color(float red, float green, float blue) {
-  Frame frame;
-  frame.resize(20, 15, false);
-  std::fill(frame.colors.begin(), frame.colors.end(), vec4(red, green, blue, 1.0F));
-  return frame;
-}
-
-TEST(ImageErrors, AreThoseOfTheirFormulas) {
-  const Frame dark = frame_of_color(0.2F, 0.2F, 0.2F);
-  const Frame light = frame_of_color(0.6F, 0.6F, 0.6F);
-  EXPECT_NEAR(structural_similarity(dark, dark), 1.0, 1e-12);
-  EXPECT_EQ(relative_square_error(dark, dark), 0.0);
-  // Without contrast only the means count.
-  EXPECT_NEAR(structural_similarity(dark, light), (2.0 * 0.2 * 0.6 + 1e-4) / (0.04 + 0.36 + 1e-4),
-              1e-6);
-  // 0.2 and 0.6 are 0.0331048 and 0.318547 in linear light.
-  EXPECT_NEAR(relative_square_error(dark, light),
-              std::pow(0.318547 - 0.0331048, 2) / (std::pow(0.318547, 2) + 0.01), 1e-5);
-  // Contrast without correlation is similar in nothing but the mean.
-  Frame stripes = light;
-  for (std::size_t i = 0; i < stripes.colors.size(); i += 2) stripes.colors[i] = vec4(0.5F);
-  EXPECT_LT(structural_similarity(stripes, light), 0.5);
+// A plane keeps its place and normals with as few triangles as are asked for.
+TEST(Decimated, HasSoManyTriangles) {
+  FlatMesh plane = grid_of_heights(16, 0.0, 1.0, flat);
+  for (dvec3& position : plane.positions) position += dvec3(1e6, 0.0, 0.0);
+  const Mesh coarse = decimated(plane, 100, "plane");
+  EXPECT_LE(coarse.triangles.size(), 100U);
+  EXPECT_GT(coarse.triangles.size(), 90U);
+  for (const dvec3& position : coarse.positions) {
+    EXPECT_EQ(position.z, 0.0);
+    // Vertices are those of the plane, with their digits in double precision.
+    EXPECT_EQ(std::fmod(16.0 * (position.x - 1e6), 1.0), 0.0);
+  }
+  for (const dvec3& normal : coarse.normals) EXPECT_EQ(normal, dvec3(0.0, 0.0, 1.0));
 }
 
 }  // namespace

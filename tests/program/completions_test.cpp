@@ -111,7 +111,7 @@ TEST_F(Completions, NameEveryOptionOfEveryCommand) {
 
 TEST_F(Completions, OfBashCompleteCommandsAndOptions) {
   EXPECT_EQ(offered({"re"}), Words{"render"});
-  EXPECT_EQ(offered({"bench", "s"}), (Words{"speed", "stability"}));
+  EXPECT_EQ(offered({"bench", "s"}), (Words{"shape", "speed", "stability"}));
   EXPECT_EQ(offered({"render", "--sur"}), Words{"--surface"});
   EXPECT_EQ(offered({"bench", "pareto", "--no"}), (Words{"--no-opengl", "--no-plots"}));
   EXPECT_EQ(offered({"nonsense", "--"}), Words{});
