@@ -17,7 +17,7 @@ shapes=(
   "capsule capsule-261120 capsule capsule-960 capsule-3968"
   "saddle saddle-131072 saddle saddle-128 saddle-512 saddle-2048"
   "relief relief-327680 relief relief-320 relief-1280 relief-5120"
-  "teapot teapot-260k teapot teapot-1000 teapot-4000 teapot-16k"
+  "teapot teapot-260k teapot teapot-1000 teapot-4000"
 )
 if [ "${1:-}" = --quick ]; then
   to=build/shape
@@ -37,7 +37,7 @@ model() {
 
 # Models of which curved triangles should make nothing good; the report says which.
 spoilt() {
-  python3 - "$work" <<'END'
+  /usr/bin/python3 - "$work" <<'END'
 import pathlib
 import sys
 import numpy
@@ -76,6 +76,8 @@ mkdir "$work/report"
 parts=()
 # measured NAME REFERENCE MODEL...: of paths.
 measured() {
+  # The teapot's blended spheres are steep: ten million triangles would stand for them. The last --error counts.
+  [ "$1" != teapot ] || more+=(--error 3e-4)
   on newer build/release/trisect bench shape "${@:3}" --reference "$2" -o "$work/report/$1" "${more[@]}" >/dev/null
   parts+=("$1")
 }
@@ -86,6 +88,7 @@ for shape in "${shapes[@]}"; do
   measured "${names[0]}" "$(model "${names[1]}")" "${models[@]}"
 done
 if [ "$to" = docs/shape ]; then
+  more+=(--error 3e-5)
   spoilt
   measured spoilt-sphere "$(model sphere-327680)" "$work/sphere-320-noisy.obj" "$work/sphere-320-turned.obj"
   measured spoilt-cube assets/cube.obj "$work/cube-smooth.obj"
@@ -106,7 +109,7 @@ END
 
 Of three models curved triangles should make nothing good. sphere-320-noisy: every coordinate of its vertices is moved by chance,
 with a standard deviation of a hundredth of the radius, and normals are made from the faces. sphere-320-turned: the same with
-its normals and a deviation of 0.2, which turns most of them by ten to twenty degrees. cube-smooth: a cube's eight corners have
+its normals and a deviation of 0.2, which turns half of them by more than 13 degrees. cube-smooth: a cube's eight corners have
 one normal each.
 END
   fi

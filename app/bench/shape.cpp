@@ -47,15 +47,23 @@ Mesh read_mesh(const std::string& file) {
   return build_mesh(read_model(file), file).mesh;
 }
 
-// The surface as triangles, for distances: flat ones as they are.
+// The surface as triangles, for distances: flat ones as they are. Where `error` takes more
+// triangles than there may be, so that they are off the surface by ten times that, or a hundred.
 FlatMesh triangles_of(const std::string& model, const Mesh& mesh, const BakedScene& scene,
                       double error) {
   ProgressLine line("dividing " + model);
   const FractionProgress show = [&](double done) { return line.show(done); };
-  return named(model, [&] {
-    return finished(scene.choice.surface == SURFACE_FLAT ? divided_evenly(mesh, scene, 1, show)
-                                                         : divided_to(mesh, scene, error, show));
-  });
+  if (scene.choice.surface == SURFACE_FLAT) {
+    return finished(divided_evenly(mesh, scene, 1, show));
+  }
+  for (const double allowed : {error, 10.0 * error}) {
+    try {
+      return finished(divided_to(mesh, scene, allowed, show));
+    } catch (const InputError&) {
+      stop_if_interrupted();
+    }
+  }
+  return named(model, [&] { return finished(divided_to(mesh, scene, 100.0 * error, show)); });
 }
 
 BakedScene baked(const std::string& model, const Mesh& mesh, const SurfaceChoice& choice) {
