@@ -37,6 +37,15 @@ measure() {
 # figure PATH: a figure of the last measurement, such as .hits or .gpu_ms.median.
 figure() { jq -r "$1" "$work/a.json"; }
 
+# open_display: a screen that nobody sees. DISPLAY names it; `server` is the process, for the caller to end.
+open_display() {
+  local number
+  exec {number}< <(exec Xvfb -displayfd 1 -screen 0 1280x1024x24 -nolisten tcp -noreset 2>/dev/null)
+  server=$!
+  read -ru "$number" DISPLAY
+  export DISPLAY=:$DISPLAY
+}
+
 # name_drivers: unpacks the newer driver, and sets name[newer] and name[stock].
 declare -A name
 name_drivers() {

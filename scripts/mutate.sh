@@ -167,4 +167,7 @@ were run. $([ $unknown = 0 ] || echo "$unknown have not been run yet.")
 END
   printf '%s' "$table"
 } >docs/mutations.md
-[ $unexplained = 0 ] && [ $unknown = 0 ]
+for name in "${wanted[@]}"; do
+  grep -q "^$name"$'\t' $results || exit 1
+done
+[ $unexplained = 0 ]

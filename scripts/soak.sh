@@ -1,7 +1,7 @@
 #!/bin/bash
 # Has a window without a screen show 20,000 frames under the validation layer while its model, surface, acceleration and size
 # change every five seconds and its shaders every twenty. Writes docs/soak.md. Ends with 1 if Vulkan is misused or memory grows.
-# Half an hour.
+# Ten minutes.
 #   scripts/soak.sh [FRAMES]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -9,12 +9,10 @@ cd "$(dirname "$0")/.."
 ready build test docs
 frames=${1:-20000}
 work=$(mktemp -d)
-exec {number}< <(exec Xvfb -displayfd 1 -screen 0 1280x1024x24 -nolisten tcp -noreset 2>/dev/null)
-server=$!
+server=
 program=
 trap 'kill $server $program 2>/dev/null || true; rm -rf "$work"' EXIT
-read -ru "$number" DISPLAY
-export DISPLAY=:$DISPLAY
+open_display
 name_drivers
 cp -r shaders "$work/shaders"
 

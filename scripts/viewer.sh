@@ -6,11 +6,9 @@ cd "$(dirname "$0")/.."
 . scripts/measure.sh
 ready build test docs
 work=$(mktemp -d)
-exec {number}< <(exec Xvfb -displayfd 1 -screen 0 1280x1024x24 -nolisten tcp -noreset 2>/dev/null)
-server=$!
+server=
 trap 'kill $server; rm -rf "$work"' EXIT
-read -ru "$number" DISPLAY
-export DISPLAY=:$DISPLAY
+open_display
 name_drivers
 
 # walk DRIVER MODEL: from side to side before the model.

@@ -12,6 +12,7 @@
 #include "app/base/memory.h"
 #include "app/base/parallel_rows.h"
 #include "app/base/rounding.h"
+#include "app/mesh/bounds.h"
 #include "app/surface/patch_range.h"
 
 namespace trisect {
@@ -108,20 +109,6 @@ std::size_t device_bytes(const BakedScene& scene) {
 
 namespace {
 
-struct Bounds {
-  dvec3 low{std::numeric_limits<double>::infinity()};
-  dvec3 high{-std::numeric_limits<double>::infinity()};
-};
-
-Bounds bounds_of(const std::vector<dvec3>& positions) {
-  Bounds bounds;
-  for (const dvec3& p : positions) {
-    bounds.low = glm::min(bounds.low, p);
-    bounds.high = glm::max(bounds.high, p);
-  }
-  return bounds;
-}
-
 // The kernels compute fourth powers of lengths in single precision, with a range of 1e-38 to 1e38.
 constexpr double kSmallest = 1e-9;
 constexpr double kLargest = 1e9;
@@ -135,10 +122,6 @@ double extent_of(const Bounds& bounds) {
         span, kSmallest, kLargest));
   }
   return 0.5 * span;
-}
-
-dvec3 middle_of(const Bounds& bounds) {
-  return bounds.low + (bounds.high - bounds.low) * 0.5;
 }
 
 BakedScene bake_within(const Mesh& mesh, const SurfaceChoice& choice, const Bounds& bounds,

@@ -41,8 +41,7 @@ int bench_ablation(const AblationOptions& options) {
   const std::string title = "What each step is worth";
   const std::vector<std::string> facts{
       fmt::format("{}, {}", device.report().name, device.report().driver), program_and_date(),
-      fmt::format("{}x{} pixels, {} frames each after a warm-up, in turns", options.width,
-                  options.height, options.runs)};
+      bench::frames_fact(options)};
   std::vector<report::Block> blocks{
       report::Heading{1, title},
       report::Paragraph{

@@ -8,6 +8,7 @@
 #include "app/cli/option_groups.h"
 #include "app/cli/options.h"
 #include "app/cli/suggestions.h"
+#include "app/tessellation/flat_mesh.h"
 
 namespace trisect::bench {
 namespace {
@@ -128,7 +129,7 @@ void CommandLine::add_shape() {
       ->group(option_group::kMeasuring)
       ->required()
       ->check(not_empty())
-      ->check(suggest_files({".obj", ".gltf", ".glb", ".ply", ".stl", ".fbx"}))
+      ->check(suggest_models())
       ->type_name("FILE");
   command
       .add_option("--decimate", shape_.decimate,
@@ -137,7 +138,7 @@ void CommandLine::add_shape() {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->check(number_from_to(1, 16'000'000))
+      ->check(number_from_to<std::size_t>(1, kMostFlatTriangles))
       ->type_name("N,...");
   command
       .add_option("--error", shape_.error,
@@ -176,7 +177,7 @@ int CommandLine::run() {
     pareto_.finest_error = 0.0;
   }
   // The options that the other subcommands share.
-  const auto apply_frames = [&](auto& options) {
+  const auto apply_frames = [&](TimedModels& options) {
     if (text_.size) parse_size("--size", *text_.size, options.width, options.height);
     if (text_.runs) options.runs = *text_.runs;
   };

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -54,10 +55,28 @@ void run_gnuplot(const std::string& script) {
   }
 }
 
-std::string gnuplot_color(std::size_t k, std::size_t count) {
+std::vector<std::string> distinct(const std::vector<std::string>& names) {
+  std::vector<std::string> result;
+  for (const std::string& name : names) {
+    if (std::find(result.begin(), result.end(), name) == result.end()) result.push_back(name);
+  }
+  return result;
+}
+
+std::string curve_style(const std::vector<std::string>& names, std::size_t k) {
   // All around the circle of hues, light and dark by turns.
-  return fmt::format("hsv2rgb({:.3f}, 1, {})", static_cast<double>(k) / static_cast<double>(count),
-                     k % 2 == 0 ? 0.9 : 0.6);
+  return fmt::format("pt {} lc rgb hsv2rgb({:.3f}, 1, {}) title \"{}\"", k + 1,
+                     static_cast<double>(k) / static_cast<double>(names.size()),
+                     k % 2 == 0 ? 0.9 : 0.6, names[k]);
+}
+
+std::string two_panels(const std::string& terminal, const std::string& file,
+                       const std::string& title) {
+  return fmt::format(
+      "set terminal {}\nset output \"{}\"\nset multiplot layout 1,2 title \"{}\"\n"
+      "set logscale xy\nset offsets graph 0.05, graph 0.05, 0, 0\nset grid\n"
+      "set key outside bottom center horizontal maxcols 2\n",
+      terminal, file, title);
 }
 
 }  // namespace trisect::bench

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace trisect::bench {
 
@@ -12,7 +13,15 @@ void expect_gnuplot();
 // Runs a script. Throws InputError if gnuplot fails.
 void run_gnuplot(const std::string& script);
 
-// For `lc rgb`: the k-th of `count` colours, no two of which are the same.
-std::string gnuplot_color(std::size_t k, std::size_t count);
+// Those of the names that differ, in the order in which they come first.
+std::vector<std::string> distinct(const std::vector<std::string>& names);
+
+// The point, the colour and the title of the k-th of curves with these names: no two have the same.
+std::string curve_style(const std::vector<std::string>& names, std::size_t k);
+
+// How a script begins that draws two panels side by side, both of whose axes are logarithmic.
+// terminal, file: as plot_script() takes them.
+std::string two_panels(const std::string& terminal, const std::string& file,
+                       const std::string& title);
 
 }  // namespace trisect::bench

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "app/base/interval.h"
+#include "app/mesh/bounds.h"
 
 namespace trisect::bench {
 namespace {
@@ -15,21 +15,6 @@ using glm::dvec3;
 // Embree's tree is in single precision: it is asked for what is nearer than the nearest so far and
 // this part of the numbers' size, twice what some eight roundings come to.
 constexpr double kSlack = 1e-6;
-
-std::pair<dvec3, dvec3> box_of(const std::vector<dvec3>& points) {
-  dvec3 low(kInfinity);
-  dvec3 high(-kInfinity);
-  for (const dvec3& point : points) {
-    low = glm::min(low, point);
-    high = glm::max(high, point);
-  }
-  return {low, high};
-}
-
-dvec3 middle_of(const std::vector<dvec3>& points) {
-  const auto [low, high] = box_of(points);
-  return 0.5 * (low + high);
-}
 
 std::vector<glm::vec3> about(const dvec3& middle, const std::vector<dvec3>& points) {
   std::vector<glm::vec3> result;
@@ -100,8 +85,8 @@ NearPoint nearest_of_triangle(const FlatMesh& mesh, uint32_t triangle, const dve
 
 NearestPoint::NearestPoint(const FlatMesh& mesh)
     : mesh_(mesh),
-      middle_(middle_of(mesh.positions)),
-      extent_(glm::length(box_of(mesh.positions).second - middle_)),
+      middle_(middle_of(bounds_of(mesh.positions))),
+      extent_(glm::length(bounds_of(mesh.positions).high - middle_)),
       triangles_(about(middle_, mesh.positions), mesh.triangles) {}
 
 NearPoint NearestPoint::to(const dvec3& point) const {

@@ -10,13 +10,16 @@
 namespace trisect {
 
 // Options of commands that time frames of models.
-struct MeasuredModels {
+struct TimedModels {
   std::vector<std::string> models;
-  std::vector<uint> surfaces{SURFACE_PHONG, SURFACE_SPHERE};
   uint32_t width = 400;
   uint32_t height = 300;
   uint32_t runs = 5;
   std::string device;
+};
+
+struct MeasuredModels : TimedModels {
+  std::vector<uint> surfaces{SURFACE_PHONG, SURFACE_SPHERE};
 };
 
 struct BenchOptions : MeasuredModels {
@@ -49,17 +52,17 @@ struct AblationOptions : MeasuredModels {
   std::string output;  // a folder
 };
 
-struct ShapeOptions {
-  std::vector<std::string> models;
+struct ShapeOptions : TimedModels {
+  ShapeOptions() {
+    width = 800;
+    height = 600;
+  }
+
   std::string reference;           // a fine model of the shape
   std::vector<uint32_t> decimate;  // numbers of triangles to which it is decimated as well
   // The most that the triangles by which distances are measured may be off the curved surface, over
   // the shape's radius.
   double error = 1e-4;
-  uint32_t width = 800;
-  uint32_t height = 600;
-  uint32_t runs = 5;
-  std::string device;
   std::string output;  // a folder
   bool plots = true;   // by gnuplot
 };

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "app/base/error.h"
-#include "app/base/threads.h"
 #include "app/bench/commands.h"
 #include "app/bench/gnuplot.h"
 #include "app/bench/pareto.h"
@@ -38,9 +37,7 @@ std::vector<std::string> provenance(const gpu::Device& device, const opengl::Con
   return {fmt::format("Vulkan: {}, {}", device.report().name, device.report().driver),
           context == nullptr ? "OpenGL: left out"
                              : fmt::format("OpenGL: {}, {}", context->device(), context->driver()),
-          fmt::format("CPU: {} threads", worker_threads()), program_and_date(),
-          fmt::format("{}x{} pixels, {} frames each after a warm-up, in turns", options.width,
-                      options.height, options.runs)};
+          bench::threads_fact(), program_and_date(), bench::frames_fact(options)};
 }
 
 // The surfaces with which there is more than one scene.

@@ -165,14 +165,11 @@ template <typename TimeOf>
 std::string panels(const std::vector<const Scene*>& scenes, const std::string& title,
                    const std::string& time, TimeOf&& time_of, const std::string& terminal,
                    const std::string& file) {
-  std::vector<std::string> families;
+  std::vector<std::string> all;
   for (const Scene* scene : scenes) {
-    for (const Measurement& one : scene->measurements) {
-      if (std::find(families.begin(), families.end(), one.family) == families.end()) {
-        families.push_back(one.family);
-      }
-    }
+    for (const Measurement& one : scene->measurements) all.push_back(one.family);
   }
+  const std::vector<std::string> families = distinct(all);
   std::vector<std::string> curves(families.size());
   std::string near_front;
   std::string right_front;
@@ -189,22 +186,19 @@ std::string panels(const std::vector<const Scene*>& scenes, const std::string& t
       curves[k] += '\n';
     }
   }
-  std::string script = fmt::format("set terminal {}\nset output \"{}\"\n", terminal, file);
+  std::string script = two_panels(terminal, file, title);
   for (std::size_t k = 0; k < families.size(); ++k) {
     script += fmt::format("$family{} << EOD\n{}EOD\n", k, curves[k]);
   }
   script += fmt::format(
       "$near << EOD\n{}EOD\n$right << EOD\n{}EOD\n"
-      "set multiplot layout 1,2 title \"{}\"\n"
-      "set logscale xy\nset offsets graph 0.05, graph 0.05, 0, 0\nset grid\n"
-      "set format x \"10^{{%L}}\"\nset ylabel \"{}\"\n"
-      "set key outside bottom center horizontal maxcols 2\n",
-      near_front, right_front, title, time);
+      "set format x \"10^{{%L}}\"\nset ylabel \"{}\"\n",
+      near_front, right_front, time);
   const auto plot = [&](const char* columns, const char* style, const char* front) {
     std::string text = "plot ";
     for (std::size_t k = 0; k < families.size(); ++k) {
-      text += fmt::format("$family{} using {} with {} pt {} lc rgb {} title \"{}\", ", k, columns,
-                          style, k + 1, gnuplot_color(k, families.size()), families[k]);
+      text += fmt::format("$family{} using {} with {} {}, ", k, columns, style,
+                          curve_style(families, k));
     }
     return text + fmt::format(
                       "${} using 1:2 with points pt 6 ps 2.5 lc rgb \"black\" title \"Pareto "

@@ -7,6 +7,7 @@
 
 #include "app/base/atomic_file.h"
 #include "app/base/error.h"
+#include "app/base/threads.h"
 #include "app/bench/gnuplot.h"
 
 namespace trisect::bench {
@@ -33,6 +34,15 @@ void ReportFolder::plot(
     run_gnuplot(script(terminal, file.temporary().string()));
     file.commit();
   }
+}
+
+std::string frames_fact(const TimedModels& options) {
+  return fmt::format("{}x{} pixels, {} frames each after a warm-up, in turns", options.width,
+                     options.height, options.runs);
+}
+
+std::string threads_fact() {
+  return fmt::format("CPU: {} threads", worker_threads());
 }
 
 }  // namespace trisect::bench

@@ -5,6 +5,8 @@
 #include <functional>
 #include <string>
 
+#include "app/bench/options.h"
+
 namespace trisect::bench {
 
 class ReportFolder {
@@ -24,5 +26,11 @@ class ReportFolder {
  private:
   std::filesystem::path path_;
 };
+
+// For the facts of a report: what frames were timed.
+std::string frames_fact(const TimedModels& options);
+
+// On how many threads of the CPU.
+std::string threads_fact();
 
 }  // namespace trisect::bench

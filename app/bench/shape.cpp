@@ -19,6 +19,7 @@
 #include "app/crosscheck/frame_comparison.h"
 #include "app/dispatch/accel.h"
 #include "app/dispatch/trace_settings.h"
+#include "app/mesh/bounds.h"
 #include "app/mesh/mesh_builder.h"
 #include "app/mesh/model_file.h"
 #include "app/mesh/obj_file.h"
@@ -73,18 +74,10 @@ BakedScene baked(const std::string& model, const Mesh& mesh, const SurfaceChoice
 // Distances between models that are apart say nothing about their shape.
 void expect_to_meet(const std::string& model, const Mesh& mesh, const std::string& reference,
                     const Mesh& fine) {
-  const auto box = [](const Mesh& of) {
-    std::pair<glm::dvec3, glm::dvec3> low_and_high{of.positions.front(), of.positions.front()};
-    for (const glm::dvec3& position : of.positions) {
-      low_and_high.first = glm::min(low_and_high.first, position);
-      low_and_high.second = glm::max(low_and_high.second, position);
-    }
-    return low_and_high;
-  };
-  const auto [low, high] = box(mesh);
-  const auto [fine_low, fine_high] = box(fine);
-  if (glm::all(glm::lessThanEqual(low, fine_high)) &&
-      glm::all(glm::lessThanEqual(fine_low, high))) {
+  const Bounds box = bounds_of(mesh.positions);
+  const Bounds fine_box = bounds_of(fine.positions);
+  if (glm::all(glm::lessThanEqual(box.low, fine_box.high)) &&
+      glm::all(glm::lessThanEqual(fine_box.low, box.high))) {
     return;
   }
   throw InputError(

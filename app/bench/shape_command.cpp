@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "app/base/error.h"
-#include "app/base/threads.h"
 #include "app/bench/commands.h"
 #include "app/bench/gnuplot.h"
 #include "app/bench/report_files.h"
@@ -83,10 +82,8 @@ int bench_shape(const ShapeOptions& options) {
     });
   }
   const std::vector<std::string> facts{
-      fmt::format("{}, {}", device.report().name, device.report().driver),
-      fmt::format("CPU: {} threads", worker_threads()), program_and_date(),
-      fmt::format("{}x{} pixels, {} frames each after a warm-up, in turns", options.width,
-                  options.height, options.runs)};
+      fmt::format("{}, {}", device.report().name, device.report().driver), bench::threads_fact(),
+      program_and_date(), bench::frames_fact(options)};
   folder.write("shape.csv",
                fmt::format("# {}\n{}", fmt::join(facts, "\n# "), bench::csv_of(shape)));
   folder.write("shape.json", json_text({{"facts", facts}, {"shape", bench::json_of(shape)}}));

@@ -175,14 +175,12 @@ std::vector<std::string> findings_of(const Shape& shape) {
 }
 
 std::string plot_script(const Shape& shape, const std::string& terminal, const std::string& file) {
-  std::vector<std::string> surfaces;
-  for (const ShapeRow& row : shape.rows) {
-    const std::string text = surface_text(row.choice);
-    if (std::find(surfaces.begin(), surfaces.end(), text) == surfaces.end()) {
-      surfaces.push_back(text);
-    }
-  }
-  std::string script = fmt::format("set terminal {}\nset output \"{}\"\n", terminal, file);
+  std::vector<std::string> all;
+  all.reserve(shape.rows.size());
+  for (const ShapeRow& row : shape.rows) all.push_back(surface_text(row.choice));
+  const std::vector<std::string> surfaces = distinct(all);
+  std::string script =
+      two_panels(terminal, file, fmt::format("{}, {} triangles", shape.reference, shape.triangles));
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     std::vector<const ShapeRow*> rows;
     for (const ShapeRow& row : shape.rows) {
@@ -200,21 +198,17 @@ std::string plot_script(const Shape& shape, const std::string& terminal, const s
   const auto curves = [&](int column) {
     std::vector<std::string> parts;
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
-      parts.push_back(
-          fmt::format("$surface{} using {}:3:3:4 with yerrorlines pt {} lc rgb {} title \"{}\"", k,
-                      column, k + 1, gnuplot_color(k, surfaces.size()), surfaces[k]));
+      parts.push_back(fmt::format("$surface{} using {}:3:3:4 with yerrorlines {}", k, column,
+                                  curve_style(surfaces, k)));
     }
     return fmt::format("plot {}\n", fmt::join(parts, ", "));
   };
   return script +
          fmt::format(
-             "set multiplot layout 1,2 title \"{}, {} triangles\"\n"
-             "set logscale xy\nset offsets graph 0.05, graph 0.05, 0, 0\nset grid\nset format y "
-             "\"10^{{%L}}\"\n"
+             "set format y \"10^{{%L}}\"\n"
              "set ylabel \"off the shape / radius: RMS, line to the largest\"\n"
-             "set key outside bottom center horizontal maxcols 2\n"
              "set xlabel \"triangles\"\n{}set xlabel \"milliseconds a frame\"\n{}unset multiplot\n",
-             shape.reference, shape.triangles, curves(1), curves(2));
+             curves(1), curves(2));
 }
 
 }  // namespace trisect::bench

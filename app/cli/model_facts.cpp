@@ -12,6 +12,7 @@
 #include "app/base/interval.h"
 #include "app/base/parallel_rows.h"
 #include "app/cli/interrupt.h"
+#include "app/mesh/bounds.h"
 #include "app/mesh/edges.h"
 #include "app/surface/patch_range.h"
 #include "app/surface/surface_double.h"
@@ -111,14 +112,12 @@ void find_crack(const Mesh& mesh, ModelFacts& facts) {
 
 ModelFacts facts_of(const Mesh& mesh, uint surface) {
   ModelFacts facts{};
-  facts.low = facts.high = mesh.positions.front();
-  for (const dvec3& p : mesh.positions) {
-    facts.low = glm::min(facts.low, p);
-    facts.high = glm::max(facts.high, p);
-  }
+  const Bounds bounds = bounds_of(mesh.positions);
+  facts.low = bounds.low;
+  facts.high = bounds.high;
   find_lean(mesh, facts);
   const double alpha = SurfaceChoice{}.alpha;
-  const dvec3 centre = facts.low + (facts.high - facts.low) * 0.5;
+  const dvec3 centre = middle_of(bounds);
   for (const dvec3& p : mesh.positions) {
     facts.radius = std::max(facts.radius, glm::distance(p, centre));
   }
