@@ -104,11 +104,10 @@ TEST_F(Acceleration, HandlesManySubpatchesInOneTile) {
   expect_all_equal(scene, settings, "");
 }
 
-// More entries in the lists of tiles than a buffer may hold: some tiles have no list.
-TEST_F(Acceleration, HandlesListsThatDoNotFit) {
+// Triangles one behind the other, all of which fill the image, seen from the last one's side.
+Mesh layers_of(uint32_t count) {
   Mesh mesh;
-  constexpr uint32_t layers = 1000;
-  for (uint32_t k = 0; k < layers; ++k) {
+  for (uint32_t k = 0; k < count; ++k) {
     const double z = 0.0001 * k;
     for (const glm::dvec2& at : {glm::dvec2(-3, -2), glm::dvec2(3, -2), glm::dvec2(0, 3)}) {
       mesh.positions.emplace_back(at, z + 0.0001 * at.x);
@@ -116,6 +115,13 @@ TEST_F(Acceleration, HandlesListsThatDoNotFit) {
     }
     mesh.triangles.push_back({{3 * k, 3 * k + 1, 3 * k + 2}, {3 * k, 3 * k + 1, 3 * k + 2}});
   }
+  return mesh;
+}
+
+// More entries in the lists of tiles than a buffer may hold: some tiles have no list.
+TEST_F(Acceleration, HandlesListsThatDoNotFit) {
+  constexpr uint32_t layers = 1000;
+  const Mesh mesh = layers_of(layers);
   const BakedScene scene = bake_with_subpatches(mesh, {SURFACE_FLAT, 0.0, SHELL_NORMAL});
   TraceSettings settings = test::framed(mesh, scene, 80, 72, 10);
   settings.solver = SOLVER_ROBUST;
@@ -126,6 +132,50 @@ TEST_F(Acceleration, HandlesListsThatDoNotFit) {
   ASSERT_EQ(limit / (80 * sizeof(PixelAovs)) / TILE_SIZE, 6U);
   ASSERT_LT(limit, std::size_t{6} * 10 * layers * sizeof(uint32_t));
   expect_all_equal(scene, settings, "", limit);
+}
+
+// A tree in which every node has a subpatch, the first one of the scene first, and a node below it,
+// the last two subpatches. inner: which child the node is; the subpatch is in the opposite octant.
+std::vector<BvhNode> chain_of(BakedScene scene, uint32_t inner) {
+  const uint32_t outer = inner ^ (BVH_CHILDREN - 1);
+  const auto count = static_cast<uint32_t>(scene.subpatches.size());
+  scene.bvh.clear();
+  for (uint32_t n = 0; n + 1 < count; ++n) {
+    BvhNode node{};
+    node.parent = n == 0 ? BVH_END : (n - 1) * BVH_PLACES + inner;
+    node.children = 1U << inner | 1U << outer;
+    node.links[outer] = BVH_LEAF + n;
+    node.links[inner] = n + 2 < count ? (n + 1) * BVH_PLACES : BVH_LEAF + count - 1;
+    scene.bvh.push_back(node);
+  }
+  return refitted_bvh(scene, scene).value();
+}
+
+// Where a ray meets all of a tree, nodes above wait for what is below them: more than the stack of
+// a ray can hold, which leaves such a ray to another kernel, and as many as there may be.
+TEST_F(Acceleration, TakesDeepTrees) {
+  const gpu::Device alone(test::validated_instance(), "", VK_NULL_HANDLE, 0);
+  for (const uint32_t levels : {12U, uint32_t{BVH_LEVELS}}) {
+    const Mesh mesh = layers_of(levels);
+    BakedScene scene = bake_with_subpatches(mesh, {SURFACE_FLAT, 0.0, SHELL_NORMAL});
+    ASSERT_EQ(scene.subpatches.size(), levels);
+    TraceSettings settings = small(mesh, scene);
+    // On the side of the first octant and of the first triangle.
+    settings.camera.eye = scene.origin * 2.0 - settings.camera.eye;
+    const Frame list = trace(scene, settings, Accel::list);
+    for (const uint32_t inner : {0U, BVH_CHILDREN - 1}) {
+      scene.bvh = chain_of(scene, inner);
+      const std::string what = std::to_string(levels) + ", " + std::to_string(inner) + ", ";
+      test::expect_equal(list, trace(scene, settings, Accel::bvh), what + "packets");
+      const Frame rays = trace(scene, settings, Accel::bvh, kNoLimit, alone);
+      test::expect_equal(list, rays, what + "rays");
+      if (inner != 0) {
+        EXPECT_EQ(rays.queued_rays, 0U) << levels;
+      } else {
+        EXPECT_GE(rays.queued_rays, list.hits()) << levels;
+      }
+    }
+  }
 }
 
 // A subpatch that takes more steps than a ray has in one submit.
