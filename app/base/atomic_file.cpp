@@ -70,8 +70,14 @@ void AtomicFile::make_name() {
 }
 
 void AtomicFile::write(std::string_view text) const {
+  write_parts([&](std::ostream& file) {
+    file.write(text.data(), static_cast<std::streamsize>(text.size()));
+  });
+}
+
+void AtomicFile::write_parts(const std::function<void(std::ostream& file)>& put) const {
   std::ofstream file(temporary_, std::ios::binary);
-  file.write(text.data(), static_cast<std::streamsize>(text.size()));
+  put(file);
   file.close();
   if (!file) throw InputError(target_.string() + ": could not be written whole.");
 }

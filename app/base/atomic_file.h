@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <ostream>
 #include <string_view>
 
 #include "app/base/temporary_names.h"
@@ -32,6 +34,9 @@ class AtomicFile {
 
   // Writes `text` as the whole content. Throws InputError if that fails.
   void write(std::string_view text) const;
+
+  // The same, of what is put into the stream, part by part.
+  void write_parts(const std::function<void(std::ostream& file)>& put) const;
 
   // Throws InputError if the file cannot be moved.
   void commit();

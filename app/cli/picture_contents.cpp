@@ -4,7 +4,7 @@
 
 #include "app/base/error.h"
 #include "app/frame/supersampling.h"
-#include "app/picture/hit_positions.h"
+#include "app/picture/hit_position.h"
 
 namespace trisect {
 
@@ -40,8 +40,10 @@ ImageContents PictureContents::of(const Frame& frame, const RenderOptions& optio
     contents.place = place;
   }
   if (has(Aov::position)) {
-    contents.positions =
-        hit_positions(frame, source.settings.camera, samples_across(options.spp), place);
+    contents.position = [&frame, camera = source.settings.camera,
+                         across = samples_across(options.spp), place](uint32_t x, uint32_t y) {
+      return hit_position(frame, x, y, camera, across, place);
+    };
   }
   return contents;
 }

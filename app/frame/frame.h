@@ -3,11 +3,17 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "app/surface/shared.h"
 
 namespace trisect {
+
+// Throws OutOfMemory if the machine has not the memory for an image of so many pixels, of so many
+// bytes each. file: of what is read; empty for others.
+void expect_pixels(std::size_t width, std::size_t height, std::size_t bytes,
+                   const std::string& file = "");
 
 // width times height pixels in rows from top to bottom, each row from left to right.
 struct Frame {

@@ -23,36 +23,40 @@ uint32_t samples_across(uint32_t spp) {
 
 Frame averaged(Frame samples, uint32_t across) {
   if (across == 1) return samples;
-  Frame frame;
-  frame.resize(samples.width / across, samples.height / across, !samples.aovs.empty());
-  frame.bytes_read = samples.bytes_read;
-  frame.queued_rays = samples.queued_rays;
+  const uint32_t width = samples.width / across;
+  const uint32_t height = samples.height / across;
   const float weight = 1.0F / (static_cast<float>(across) * static_cast<float>(across));
-  for (uint32_t y = 0; y < frame.height; ++y) {
-    for (uint32_t x = 0; x < frame.width; ++x) {
-      const std::size_t pixel = std::size_t{y} * frame.width + x;
+  // In place: no pixel lies behind the first sample of its own, or of one that comes later.
+  for (uint32_t y = 0; y < height; ++y) {
+    for (uint32_t x = 0; x < width; ++x) {
       const auto sample = [&](uint32_t row, uint32_t column) {
         return (std::size_t{y} * across + row) * samples.width + std::size_t{x} * across + column;
       };
-      if (!frame.aovs.empty()) {
-        frame.aovs[pixel] = samples.aovs[sample(across / 2, across / 2)];
-        frame.aovs[pixel].evaluations = 0;
-        frame.aovs[pixel].candidates = 0;
-      }
       vec4 sum(0.0F);
+      uint evaluations = 0;
+      uint candidates = 0;
       for (uint32_t row = 0; row < across; ++row) {
         for (uint32_t column = 0; column < across; ++column) {
           const std::size_t one = sample(row, column);
           sum += linear(samples.colors[one]);
-          if (frame.aovs.empty()) continue;
-          frame.aovs[pixel].evaluations += samples.aovs[one].evaluations;
-          frame.aovs[pixel].candidates += samples.aovs[one].candidates;
+          if (samples.aovs.empty()) continue;
+          evaluations += samples.aovs[one].evaluations;
+          candidates += samples.aovs[one].candidates;
         }
       }
-      frame.colors[pixel] = encoded(sum * weight);
+      const std::size_t pixel = std::size_t{y} * width + x;
+      samples.colors[pixel] = encoded(sum * weight);
+      if (samples.aovs.empty()) continue;
+      samples.aovs[pixel] = samples.aovs[sample(across / 2, across / 2)];
+      samples.aovs[pixel].evaluations = evaluations;
+      samples.aovs[pixel].candidates = candidates;
     }
   }
-  return frame;
+  samples.width = width;
+  samples.height = height;
+  samples.colors.resize(std::size_t{width} * height);
+  if (!samples.aovs.empty()) samples.aovs.resize(samples.colors.size());
+  return samples;
 }
 
 }  // namespace trisect

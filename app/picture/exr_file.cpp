@@ -20,33 +20,112 @@
 namespace trisect {
 namespace {
 
-// One channel after the other, each a component of an array of structures.
+// The channels of a band of rows, each a component of an array of structures.
 class Channels {
  public:
-  // first: the pixel at which the arrays begin.
-  Channels(Imf::Header& header, std::size_t width, const Imath::V2i& first)
-      : header_(header), width_(width), first_(first) {}
+  // first: the pixel at which the band begins, in the image.
+  Channels(std::size_t width, const Imath::V2i& first) : width_(width), first_(first) {}
 
+  // pixel: the structure of the band's first pixel.
   template <typename Pixel>
-  void add(const char* name, Imf::PixelType type, const std::vector<Pixel>& pixels,
-           std::size_t offset) {
-    header_.channels().insert(name, Imf::Channel(type));
+  void add(const char* name, Imf::PixelType type, const Pixel* pixel, std::size_t offset) {
     // OpenEXR's slices are not const; writing a file only reads them.
-    auto* base = reinterpret_cast<char*>(const_cast<Pixel*>(pixels.data())) + offset;
+    auto* base = reinterpret_cast<char*>(const_cast<Pixel*>(pixel)) + offset;
     // OpenEXR addresses pixels by their coordinates in the image.
-    const auto pixel = static_cast<std::ptrdiff_t>(sizeof(Pixel));
-    const std::ptrdiff_t row = pixel * static_cast<std::ptrdiff_t>(width_);
-    base -= first_.x * pixel + first_.y * row;
+    const auto size = static_cast<std::ptrdiff_t>(sizeof(Pixel));
+    const std::ptrdiff_t row = size * static_cast<std::ptrdiff_t>(width_);
+    base -= first_.x * size + first_.y * row;
     slices_.insert(name, Imf::Slice(type, base, sizeof(Pixel), static_cast<std::size_t>(row)));
   }
 
   [[nodiscard]] const Imf::FrameBuffer& slices() const { return slices_; }
 
  private:
-  Imf::Header& header_;
   std::size_t width_;
   Imath::V2i first_;
   Imf::FrameBuffer slices_;
+};
+
+// What a file has of a frame, band by band.
+class FrameRows {
+ public:
+  FrameRows(const Frame& frame, const ImageContents& contents, const Imath::V2i& first)
+      : frame_(frame), contents_(contents), first_(first) {}
+
+  // The slices point into this object and the frame.
+  Imf::FrameBuffer band(uint32_t first, uint32_t count) {
+    Channels channels(frame_.width, first_ + Imath::V2i(0, static_cast<int>(first)));
+    if (has(Aov::color)) add_colors(first, count, channels);
+    if (!frame_.aovs.empty()) add_aovs(frame_.aovs.data() + at(0, first), channels);
+    if (has(Aov::position) && contents_.position) add_positions(first, count, channels);
+    return channels.slices();
+  }
+
+ private:
+  static constexpr std::size_t kComponent = sizeof(float);
+
+  [[nodiscard]] bool has(Aov aov) const {
+    return std::find(contents_.aovs.begin(), contents_.aovs.end(), aov) != contents_.aovs.end();
+  }
+
+  [[nodiscard]] std::size_t at(uint32_t x, uint32_t y) const {
+    return std::size_t{y} * frame_.width + x;
+  }
+
+  void add_colors(uint32_t first, uint32_t count, Channels& channels) {
+    linear_.clear();
+    for (std::size_t i = at(0, first); i < at(0, first + count); ++i) {
+      const vec4& color = frame_.colors[i];
+      linear_.emplace_back(linear_from_srgb(color.x), linear_from_srgb(color.y),
+                           linear_from_srgb(color.z), color.w);
+    }
+    channels.add("R", Imf::FLOAT, linear_.data(), 0);
+    channels.add("G", Imf::FLOAT, linear_.data(), kComponent);
+    channels.add("B", Imf::FLOAT, linear_.data(), 2 * kComponent);
+    channels.add("A", Imf::FLOAT, linear_.data(), 3 * kComponent);
+  }
+
+  void add_aovs(const PixelAovs* pixels, Channels& channels) const {
+    constexpr std::size_t normal = offsetof(PixelAovs, normal_z);
+    constexpr std::size_t geometric = offsetof(PixelAovs, geometric_u);
+    if (has(Aov::normal)) {
+      channels.add("N.X", Imf::FLOAT, pixels, normal);
+      channels.add("N.Y", Imf::FLOAT, pixels, normal + kComponent);
+      channels.add("N.Z", Imf::FLOAT, pixels, normal + 2 * kComponent);
+    }
+    if (has(Aov::depth)) channels.add("Z", Imf::FLOAT, pixels, normal + 3 * kComponent);
+    if (has(Aov::geometric)) {
+      channels.add("G.X", Imf::FLOAT, pixels, geometric);
+      channels.add("G.Y", Imf::FLOAT, pixels, geometric + kComponent);
+      channels.add("G.Z", Imf::FLOAT, pixels, geometric + 2 * kComponent);
+    }
+    if (has(Aov::uv)) {
+      channels.add("U", Imf::FLOAT, pixels, geometric + 3 * kComponent);
+      channels.add("V", Imf::FLOAT, pixels, offsetof(PixelAovs, v));
+    }
+    if (has(Aov::patch)) {
+      channels.add("patch", Imf::UINT, pixels, offsetof(PixelAovs, triangle));
+    }
+    if (has(Aov::evals)) {
+      channels.add("evals", Imf::UINT, pixels, offsetof(PixelAovs, evaluations));
+    }
+  }
+
+  void add_positions(uint32_t first, uint32_t count, Channels& channels) {
+    positions_.clear();
+    for (uint32_t y = first; y < first + count; ++y) {
+      for (uint32_t x = 0; x < frame_.width; ++x) positions_.push_back(contents_.position(x, y));
+    }
+    channels.add("P.X", Imf::FLOAT, positions_.data(), 0);
+    channels.add("P.Y", Imf::FLOAT, positions_.data(), kComponent);
+    channels.add("P.Z", Imf::FLOAT, positions_.data(), 2 * kComponent);
+  }
+
+  const Frame& frame_;
+  const ImageContents& contents_;
+  Imath::V2i first_;
+  std::vector<vec4> linear_;
+  std::vector<glm::vec3> positions_;
 };
 
 void insert(const ImageAttribute& attribute, Imf::Header& header) {
@@ -73,54 +152,13 @@ void write_exr(const Frame& frame, const AtomicFile& file, const ImageContents& 
   // sRGB's primaries and white, which are Rec. ITU-R BT.709's: the values that this begins with.
   Imf::addChromaticities(header, Imf::Chromaticities());
   for (const ImageAttribute& attribute : contents.attributes) insert(attribute, header);
-  const auto has = [&](Aov aov) {
-    return std::find(contents.aovs.begin(), contents.aovs.end(), aov) != contents.aovs.end();
-  };
-  Channels channels(header, frame.width, first);
-  constexpr std::size_t component = sizeof(float);
-  std::vector<vec4> linear;
-  if (has(Aov::color)) {
-    linear.reserve(frame.colors.size());
-    for (const vec4& color : frame.colors) {
-      linear.emplace_back(linear_from_srgb(color.x), linear_from_srgb(color.y),
-                          linear_from_srgb(color.z), color.w);
-    }
-    channels.add("R", Imf::FLOAT, linear, 0);
-    channels.add("G", Imf::FLOAT, linear, component);
-    channels.add("B", Imf::FLOAT, linear, 2 * component);
-    channels.add("A", Imf::FLOAT, linear, 3 * component);
+  FrameRows rows(frame, contents, first);
+  const Imf::FrameBuffer channels = rows.band(0, 0);
+  for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+    header.channels().insert(channel.name(), Imf::Channel(channel.slice().type));
   }
-  if (!frame.aovs.empty()) {
-    constexpr std::size_t normal = offsetof(PixelAovs, normal_z);
-    constexpr std::size_t geometric = offsetof(PixelAovs, geometric_u);
-    if (has(Aov::normal)) {
-      channels.add("N.X", Imf::FLOAT, frame.aovs, normal);
-      channels.add("N.Y", Imf::FLOAT, frame.aovs, normal + component);
-      channels.add("N.Z", Imf::FLOAT, frame.aovs, normal + 2 * component);
-    }
-    if (has(Aov::depth)) channels.add("Z", Imf::FLOAT, frame.aovs, normal + 3 * component);
-    if (has(Aov::geometric)) {
-      channels.add("G.X", Imf::FLOAT, frame.aovs, geometric);
-      channels.add("G.Y", Imf::FLOAT, frame.aovs, geometric + component);
-      channels.add("G.Z", Imf::FLOAT, frame.aovs, geometric + 2 * component);
-    }
-    if (has(Aov::uv)) {
-      channels.add("U", Imf::FLOAT, frame.aovs, geometric + 3 * component);
-      channels.add("V", Imf::FLOAT, frame.aovs, offsetof(PixelAovs, v));
-    }
-    if (has(Aov::patch)) {
-      channels.add("patch", Imf::UINT, frame.aovs, offsetof(PixelAovs, triangle));
-    }
-    if (has(Aov::evals)) {
-      channels.add("evals", Imf::UINT, frame.aovs, offsetof(PixelAovs, evaluations));
-    }
-  }
-  if (has(Aov::position) && !contents.positions.empty()) {
-    channels.add("P.X", Imf::FLOAT, contents.positions, 0);
-    channels.add("P.Y", Imf::FLOAT, contents.positions, component);
-    channels.add("P.Z", Imf::FLOAT, contents.positions, 2 * component);
-  }
-  write_exr_pixels(header, channels.slices(), file);
+  write_exr_rows(
+      header, [&](uint32_t row, uint32_t count) { return rows.band(row, count); }, file);
 }
 
 }  // namespace trisect

@@ -4,6 +4,7 @@
 #include <ImfOutputFile.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <exception>
@@ -16,6 +17,9 @@
 
 namespace trisect {
 namespace {
+
+// Rows of a band: several of the sixteen that OpenEXR compresses together.
+constexpr uint32_t kRows = 64;
 
 // OpenEXR's own stream does not do: the last that is written of a file, where its rows are, is
 // written by a destructor, which keeps to itself that it could not.
@@ -67,14 +71,18 @@ class ExrStream : public Imf::OStream {
 
 }  // namespace
 
-void write_exr_pixels(const Imf::Header& header, const Imf::FrameBuffer& pixels,
-                      const AtomicFile& file) {
+void write_exr_rows(const Imf::Header& header, const ExrRows& rows, const AtomicFile& file) {
+  const Imath::Box2i& window = header.dataWindow();
+  const auto height = static_cast<uint32_t>(window.max.y - window.min.y + 1);
   try {
     ExrStream stream(file);
     {
       Imf::OutputFile out(stream, header);
-      out.setFrameBuffer(pixels);
-      out.writePixels(header.dataWindow().max.y - header.dataWindow().min.y + 1);
+      for (uint32_t first = 0; first < height; first += kRows) {
+        const uint32_t count = std::min(kRows, height - first);
+        out.setFrameBuffer(rows(first, count));
+        out.writePixels(static_cast<int>(count));
+      }
     }
     stream.close();
   } catch (const std::exception& error) {

@@ -9,6 +9,7 @@
 #include <cstddef>
 
 #include "app/base/error.h"
+#include "app/frame/frame.h"
 #include "app/picture/image_reader.h"
 #include "app/picture/open_exr.h"
 #include "app/picture/png_pixels.h"
@@ -38,7 +39,9 @@ std::vector<uint32_t> exr_bits(const fs::path& path, Imf::InputFile& file,
     return static_cast<std::size_t>(last - first + 1);
   };
   const std::size_t width = size(window.min.x, window.max.x);
-  std::vector<uint32_t> bits(width * size(window.min.y, window.max.y));
+  const std::size_t height = size(window.min.y, window.max.y);
+  expect_pixels(width, height, sizeof(uint32_t), path.string());
+  std::vector<uint32_t> bits(width * height);
   const Imf::PixelType type = channel.type == Imf::UINT ? Imf::UINT : Imf::FLOAT;
   Imf::FrameBuffer buffer;
   buffer.insert(name, Imf::Slice::Make(type, bits.data(), window, sizeof(uint32_t),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -41,11 +42,13 @@ enum class Aov {
   evals       // evals
 };
 
-// What of a frame a file has.
+// What of a frame a file has. Files are written row by row: beside the frame they take no memory
+// that grows with its height.
 struct ImageContents {
   // EXR: which channels. Those that the frame has not are left out. PFM: the first one.
   std::vector<Aov> aovs{Aov::color, Aov::depth, Aov::normal, Aov::geometric, Aov::patch, Aov::uv};
-  std::vector<glm::vec3> positions;        // of all pixels, for Aov::position
+  // Of the hit of a pixel (x, y), for Aov::position.
+  std::function<glm::vec3(uint32_t x, uint32_t y)> position;
   bool alpha = false;                      // PNG: A, which EXR has always
   std::optional<FramePlace> place;         // EXR and PNG, of a part of an image
   std::vector<ImageAttribute> attributes;  // EXR and PNG

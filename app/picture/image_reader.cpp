@@ -28,13 +28,13 @@ namespace fs = std::filesystem;
 Frame read_png(const fs::path& path) {
   const PngValues png = read_png_values(path);
   Frame frame;
-  frame.width = png.width;
-  frame.height = png.height;
+  frame.resize(png.width, png.height, false);
   const std::size_t components = png.alpha ? 4 : 3;
-  frame.colors.reserve(png.values.size() / components);
-  for (std::size_t i = 0; i < png.values.size(); i += components) {
-    const auto at = [&](std::size_t k) { return static_cast<float>(png.values[i + k]); };
-    frame.colors.push_back(vec4(at(0), at(1), at(2), png.alpha ? at(3) : 65535.0F) / 65535.0F);
+  for (std::size_t i = 0; i < frame.colors.size(); ++i) {
+    const auto at = [&](std::size_t k) {
+      return static_cast<float>(png.values[i * components + k]);
+    };
+    frame.colors[i] = vec4(at(0), at(1), at(2), png.alpha ? at(3) : 65535.0F) / 65535.0F;
   }
   return frame;
 }

@@ -18,7 +18,6 @@
 #include <vector>
 
 #include "app/base/error.h"
-#include "app/base/memory.h"
 #include "app/base/message.h"
 #include "app/base/srgb.h"
 #include "app/picture/image_file.h"
@@ -56,11 +55,9 @@ void ignore_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
 // A picture's rows and texts as libpng takes them.
 struct PngContent {
-  uint32_t width;
-  uint32_t height;
-  bool alpha;
-  std::optional<FramePlace> place;
-  std::vector<uint8_t*> rows;
+  const PngRows& rows;
+  const std::optional<FramePlace>& place;
+  std::vector<uint8_t> row;
   std::vector<png_text> texts;
 };
 
@@ -68,17 +65,21 @@ struct PngContent {
 void write_content(png_structp png, png_infop info, std::FILE* file, PngContent& content) {
   if (setjmp(png_jmpbuf(png)) != 0) return;  // NOLINT(cert-err52-cpp): as libpng has it
   png_init_io(png, file);
-  png_set_IHDR(png, info, content.width, content.height, 8,
-               content.alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_IHDR(png, info, content.rows.width, content.rows.height, 8,
+               content.rows.alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB,
+               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
   if (content.place) {
     png_set_oFFs(png, info, static_cast<png_int_32>(content.place->x),
                  static_cast<png_int_32>(content.place->y), PNG_OFFSET_PIXEL);
   }
   png_set_text(png, info, content.texts.data(), static_cast<int>(content.texts.size()));
-  png_set_rows(png, info, content.rows.data());
-  png_write_png(png, info, PNG_TRANSFORM_IDENTITY, nullptr);
+  png_write_info(png, info);
+  for (uint32_t row = 0; row < content.rows.height; ++row) {
+    content.rows.put(row, content.row.data());
+    png_write_row(png, content.row.data());
+  }
+  png_write_end(png, info);
 }
 
 // The same of reading. These return nothing that C++ destroys.
@@ -175,13 +176,10 @@ bool can_hold(const std::filesystem::path& path, uint32_t width, uint32_t height
 
 }  // namespace
 
-void write_png_pixels(PngPixels& pixels, const ImageTexts& texts,
-                      const std::optional<FramePlace>& place, const AtomicFile& file) {
-  PngContent content{pixels.width, pixels.height, pixels.alpha, place, {}, {}};
-  const std::size_t row_bytes = std::size_t{pixels.width} * (pixels.alpha ? 4 : 3);
-  for (uint32_t row = 0; row < pixels.height; ++row) {
-    content.rows.push_back(pixels.bytes.data() + row * row_bytes);
-  }
+void write_png_rows(const PngRows& rows, const ImageTexts& texts,
+                    const std::optional<FramePlace>& place, const AtomicFile& file) {
+  PngContent content{rows, place, {}, {}};
+  content.row.resize(std::size_t{rows.width} * (rows.alpha ? 4 : 3));
   std::vector<std::string> keywords;
   keywords.reserve(texts.size());
   for (const auto& [name, value] : texts) {
@@ -211,8 +209,7 @@ PngValues read_png_values(const std::filesystem::path& path) {
   const uint32_t height = png_get_image_height(head.png(), head.info());
   if (!can_hold(path, width, height)) fail(path, "read", "it is cut off");
   // Up to four numbers of 16 bits a pixel, libpng's and ours.
-  expect_memory(16.0 * width * height,
-                fmt::format("{}: an image of {}x{} pixels", path.string(), width, height));
+  expect_pixels(width, height, 16, path.string());
   const PngReader file(path, read_rows);
   const bool alpha = png_get_channels(file.png(), file.info()) == 4;
   PngValues values{width, height, alpha, {}};
@@ -251,13 +248,15 @@ ImageTexts read_png_texts(const std::filesystem::path& path) {
 
 void write_png(const Frame& frame, const AtomicFile& file, const ImageContents& contents) {
   const int components = contents.alpha ? 4 : 3;
-  PngPixels pixels{frame.width, frame.height, contents.alpha, {}};
-  pixels.bytes.reserve(frame.colors.size() * static_cast<std::size_t>(components));
-  for (const vec4& pixel : frame.colors) {
-    const vec4 color = contents.alpha ? divided_by_alpha(pixel) : pixel;
-    for (int i = 0; i < components; ++i) pixels.bytes.push_back(byte_of(color[i]));
-  }
-  write_png_pixels(pixels, texts_of(contents.attributes), contents.place, file);
+  const auto put = [&](uint32_t row, uint8_t* bytes) {
+    for (uint32_t column = 0; column < frame.width; ++column) {
+      const vec4& pixel = frame.colors[std::size_t{row} * frame.width + column];
+      const vec4 color = contents.alpha ? divided_by_alpha(pixel) : pixel;
+      for (int i = 0; i < components; ++i) *bytes++ = byte_of(color[i]);
+    }
+  };
+  write_png_rows({frame.width, frame.height, contents.alpha, put}, texts_of(contents.attributes),
+                 contents.place, file);
 }
 
 }  // namespace trisect

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -24,10 +25,18 @@ struct PngPixels {
   std::vector<uint8_t> bytes;
 };
 
+// The same, row by row.
+struct PngRows {
+  uint32_t width = 0;
+  uint32_t height = 0;
+  bool alpha = false;
+  std::function<void(uint32_t row, uint8_t* bytes)> put;  // must not throw
+};
+
 // texts: names and values; the names get kPngKeyword before them. place: of a part of an image.
 // Throws InputError, naming the file.
-void write_png_pixels(PngPixels& pixels, const ImageTexts& texts,
-                      const std::optional<FramePlace>& place, const AtomicFile& file);
+void write_png_rows(const PngRows& rows, const ImageTexts& texts,
+                    const std::optional<FramePlace>& place, const AtomicFile& file);
 
 // Sixteen bits a component, sRGB, from 0 to 65535, else as PngPixels.
 struct PngValues {

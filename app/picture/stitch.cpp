@@ -16,6 +16,7 @@
 
 #include "app/base/error.h"
 #include "app/base/message.h"
+#include "app/frame/frame.h"
 #include "app/picture/exr_output.h"
 #include "app/picture/image_reader.h"
 #include "app/picture/open_exr.h"
@@ -150,6 +151,7 @@ void stitch_png(const std::vector<fs::path>& parts, const AtomicFile& file) {
     const std::size_t components = pixels.alpha ? 4 : 3;
     if (!coverage) {
       whole = {place.image_width, place.image_height, pixels.alpha, {}};
+      expect_pixels(whole.width, whole.height, components);
       whole.bytes.resize(std::size_t{whole.width} * whole.height * components);
       coverage.emplace(whole.width, whole.height);
     }
@@ -166,7 +168,16 @@ void stitch_png(const std::vector<fs::path>& parts, const AtomicFile& file) {
     coverage->add({place.x, place.y, pixels.width, pixels.height});
   }
   coverage->expect_all(parts.front());
-  write_png_pixels(whole, part_texts.of_all(), std::nullopt, file);
+  const std::size_t row_bytes = whole.bytes.size() / whole.height;
+  const auto put = [&](uint32_t row, uint8_t* bytes) {
+    std::copy_n(whole.bytes.data() + row * row_bytes, row_bytes, bytes);
+  };
+  write_png_rows({whole.width, whole.height, whole.alpha, put}, part_texts.of_all(), std::nullopt,
+                 file);
+}
+
+std::size_t size_of(Imf::PixelType type) {
+  return type == Imf::HALF ? 2 : 4;
 }
 
 // All channels of an image, as wide and high as its display window.
@@ -175,9 +186,15 @@ class ExrChannels {
   explicit ExrChannels(const Imf::Header& header) : window_(header.displayWindow()) {
     const std::size_t width = size(window_.min.x, window_.max.x);
     const std::size_t height = size(window_.min.y, window_.max.y);
-    for (auto at = header.channels().begin(); at != header.channels().end(); ++at) {
+    const Imf::ChannelList& channels = header.channels();
+    std::size_t of_pixel = 0;
+    for (auto at = channels.begin(); at != channels.end(); ++at) {
+      of_pixel += size_of(at.channel().type);
+    }
+    expect_pixels(width, height, of_pixel);
+    for (auto at = channels.begin(); at != channels.end(); ++at) {
       const Imf::PixelType type = at.channel().type;
-      const std::size_t pixel = type == Imf::HALF ? 2 : 4;
+      const std::size_t pixel = size_of(type);
       std::vector<char>& bytes = bytes_.emplace_back(width * height * pixel);
       const std::size_t row = pixel * width;
       slices_.insert(at.name(), Imf::Slice::Make(type, bytes.data(), window_, pixel, row));
@@ -212,6 +229,23 @@ ImagePart part_of(const fs::path& path, const Imf::Header& header) {
           ExrChannels::size(part.min.y, part.max.y)};
 }
 
+// Reads a file's pixels, but keeps none.
+void read_to_the_end(const fs::path& path) {
+  Imf::InputFile file = open_exr(path);
+  const Imath::Box2i& window = file.header().dataWindow();
+  const Imf::ChannelList& channels = file.header().channels();
+  std::vector<char> row(std::size_t{ExrChannels::size(window.min.x, window.max.x)} * 4);
+  Imf::FrameBuffer slices;
+  for (auto at = channels.begin(); at != channels.end(); ++at) {
+    const Imf::PixelType type = at.channel().type;
+    // Every row goes to the same place.
+    char* base = row.data() - window.min.x * static_cast<std::ptrdiff_t>(size_of(type));
+    slices.insert(at.name(), Imf::Slice(type, base, size_of(type), 0));
+  }
+  file.setFrameBuffer(slices);
+  file.readPixels(window.min.y, window.max.y);
+}
+
 void stitch_exr(const std::vector<fs::path>& parts, const AtomicFile& file) {
   std::optional<Imf::Header> header;
   std::optional<ExrChannels> channels;
@@ -240,7 +274,8 @@ void stitch_exr(const std::vector<fs::path>& parts, const AtomicFile& file) {
   coverage->expect_all(parts.front());
   header->dataWindow() = header->displayWindow();
   for (const std::string& name : part_texts.not_of_all()) header->erase(name.c_str());
-  write_exr_pixels(*header, channels->slices(), file);
+  write_exr_rows(
+      *header, [&](uint32_t, uint32_t) { return channels->slices(); }, file);
 }
 
 }  // namespace
@@ -273,10 +308,7 @@ bool is_whole_image(const fs::path& path) {
     if (image_format(path) == ImageFormat::png) {
       read_png_pixels(path);
     } else {
-      Imf::InputFile file = open_exr(path);
-      Imf::Header whole = file.header();
-      whole.displayWindow() = whole.dataWindow();
-      ExrChannels(whole).read(file);
+      read_to_the_end(path);
     }
     return true;
   } catch (const std::exception& error) {

@@ -332,8 +332,9 @@ struct View {
   TraceParams params;
   in_float::Kernel kernel;
 
-  View(const BakedScene& scene, const dvec3& eye, const dvec3& target)
-      : params(make_params(scene, settings(eye, target))),
+  View(const BakedScene& scene, const dvec3& eye, const dvec3& target, uint32_t width = 640,
+       uint32_t height = 480)
+      : params(make_params(scene, settings(eye, target, width, height))),
         kernel(in_float::kernel_of(scene, params, {})) {}
 
   // In pixels; z is the depth along the axis. Nothing where the point is not before the eye.
@@ -346,15 +347,18 @@ struct View {
     const double z = glm::dot(S, dvec3(params.frame_z));
     const double before = 1.0 + z / params.anchor.w;
     if (before <= 1e-3) return {z, {}};
-    return {z, glm::dvec2(glm::dot(S, dvec3(params.frame_x)) / before / params.frame_x.w + 320.0,
-                          glm::dot(S, dvec3(params.frame_y)) / before / params.frame_y.w + 240.0)};
+    const glm::dvec2 middle(0.5 * params.image_width, 0.5 * params.image_height);
+    return {z, middle + glm::dvec2(glm::dot(S, dvec3(params.frame_x)) / params.frame_x.w,
+                                   glm::dot(S, dvec3(params.frame_y)) / params.frame_y.w) /
+                            before};
   }
 
  private:
-  static TraceSettings settings(const dvec3& eye, const dvec3& target) {
+  static TraceSettings settings(const dvec3& eye, const dvec3& target, uint32_t width,
+                                uint32_t height) {
     TraceSettings settings;
-    settings.width = 640;
-    settings.height = 480;
+    settings.width = width;
+    settings.height = height;
     settings.camera.eye = eye;
     settings.camera.target = target;
     return settings;
@@ -402,6 +406,32 @@ TEST(ProjectedSubpatch, HoldsTheImageOfTheSurface) {
   EXPECT_GT(points, 10000U);
   // The box is no larger than it must be.
   EXPECT_LT(tightest, 0.5);
+}
+
+// Where the model is small in a large picture, the roundings of image positions are longer than all
+// tolerances of the model.
+TEST(ProjectedSubpatch, HoldsTheImageOfASmallModelInALargePicture) {
+  std::mt19937_64 random(5);
+  const Choice choice{"sphere-320", {SURFACE_FLAT, 0.0, SHELL_NORMAL}};
+  const BakedScene scene = baked(choice);
+  for (int camera = 0; camera < 20; ++camera) {
+    View view(scene, scene.origin + stress::any_direction(random) * scene.radius * 600.0,
+              scene.origin + stress::any_direction(random) * scene.radius, kLargestSide,
+              kLargestSide);
+    in_float::Kernel& kernel = view.kernel;
+    for (uint32_t i = 0; i < scene.subpatches.size(); ++i) {
+      const SubpatchBounds& bounds = scene.subpatches[i];
+      const ProjectedSubpatch seen = kernel.project_subpatch(i);
+      for (const dvec3& l : test::weight_grid(4)) {
+        const auto [z, pixel] = view.at(in_double::surface_point(
+            shape_of(choice.choice), to_double(scene.triangles[bounds.triangle]),
+            weights_of(bounds, l)));
+        ASSERT_TRUE(pixel);
+        ASSERT_TRUE(kernel.overlaps_rect(seen, glm::vec2(*pixel), glm::vec2(kernel.PIXEL_SLACK)))
+            << "subpatch " << i << " view " << camera;
+      }
+    }
+  }
 }
 
 // And so are the control points of its overlap, moved by the position error.

@@ -3,7 +3,6 @@
 
 #include <assimp/scene.h>
 #include <gtest/gtest.h>
-#include <malloc.h>
 
 #include <assimp/Exporter.hpp>
 #include <assimp/Importer.hpp>
@@ -19,6 +18,7 @@
 #include "app/mesh/mesh_builder.h"
 #include "app/tessellation/flat_mesh_file.h"
 #include "tests/support/file_content.h"
+#include "tests/support/peak_memory.h"
 #include "tests/support/scenes.h"
 #include "tests/support/temporary_folder.h"
 
@@ -155,15 +155,6 @@ TEST(ModelFile, SaysWhyAFileCannotBeRead) {
 // AddressSanitizer keeps what is freed.
 #ifndef __SANITIZE_ADDRESS__
 
-// Kilobytes of a line of /proc/self/status.
-std::size_t status(const std::string& key) {
-  std::ifstream file("/proc/self/status");
-  for (std::string line; std::getline(file, line);) {
-    if (line.starts_with(key)) return std::stoul(line.substr(key.size() + 1));
-  }
-  return 0;
-}
-
 // The file itself, what the library makes of it, ours, and the mesh: none of them longer than it is
 // needed.
 TEST(ModelFile, ReadsInSixTimesItsSize) {
@@ -184,17 +175,15 @@ TEST(ModelFile, ReadsInSixTimesItsSize) {
     }
   }
   for (const MeshFormat format : formats) {
-    malloc_trim(0);
-    std::ofstream("/proc/self/clear_refs") << 5;  // begins the peak anew
-    const std::size_t before = status("VmRSS:");
+    const test::PeakMemory peak;
     const BuiltMesh built = build_mesh(read_model(path(format)), "a");
-    const double kilobytes = static_cast<double>(status("VmHWM:") - before);
-    const double file = static_cast<double>(std::filesystem::file_size(path(format))) / 1024.0;
+    const double taken = peak.bytes();
+    const auto file = static_cast<double>(std::filesystem::file_size(path(format)));
     EXPECT_EQ(built.mesh.triangles.size(), 450000U);
-    EXPECT_LT(kilobytes / file, 6.0) << path(format);
-    EXPECT_GT(kilobytes / file, 2.0) << "the peak was not measured";
-    std::printf("%s: %.1f times its %.1f MB\n", path(format).filename().c_str(), kilobytes / file,
-                file / 1000);
+    EXPECT_LT(taken / file, 6.0) << path(format);
+    EXPECT_GT(taken / file, 2.0) << "the peak was not measured";
+    std::printf("%s: %.1f times its %.1f MB\n", path(format).filename().c_str(), taken / file,
+                file / 1e6);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <bit>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -16,9 +17,11 @@
 
 #include "app/base/error.h"
 #include "app/base/srgb.h"
+#include "app/picture/image_channels.h"
 #include "app/picture/image_reader.h"
 #include "tests/support/exr_reader.h"
 #include "tests/support/file_content.h"
+#include "tests/support/peak_memory.h"
 #include "tests/support/temporary_folder.h"
 
 namespace trisect {
@@ -115,7 +118,7 @@ TEST(WritePfm, WritesColoursOrOneOutput) {
   const auto written = [&](Aov aov, const std::string& head, std::size_t components) {
     ImageContents contents;
     contents.aovs = {aov};
-    for (const vec4& color : frame.colors) contents.positions.emplace_back(color);
+    contents.position = [&](uint32_t x, uint32_t y) { return glm::vec3(frame.colors[y * 5 + x]); };
     save_image(frame, folder / "a.pfm", contents);
     const std::string bytes = test::content_of(folder / "a.pfm");
     EXPECT_EQ(bytes.substr(0, head.size()), head);
@@ -132,6 +135,24 @@ TEST(WritePfm, WritesColoursOrOneOutput) {
   EXPECT_EQ(written(Aov::normal, three, 3)[2], frame.aovs[lowest].normal_z.z);
   EXPECT_EQ(written(Aov::geometric, three, 3)[0], frame.aovs[lowest].geometric_u.x);
   EXPECT_EQ(written(Aov::position, three, 3)[15], frame.colors[5].x);
+}
+
+// A picture may be as large as the memory: what is written of it is made row by row.
+TEST(Memory, OfAPictureIsItsFrameWhenItIsWritten) {
+  const test::TemporaryFolder folder;
+  Frame frame;
+  frame.resize(1000, 4000, true);
+  ImageContents contents;
+  contents.position = [](uint32_t x, uint32_t y) { return glm::vec3(x, y, 0.0F); };
+  for (const char* name : {"a.png", "a.exr", "a.pfm"}) {
+    contents.aovs = {Aov::position};
+    if (image_format(name) == ImageFormat::exr) contents.aovs.push_back(Aov::color);
+    const test::PeakMemory peak;
+    save_image(frame, folder / name, contents);
+    // The bytes of a PNG would take three a pixel, positions twelve. The libraries' own memory is a
+    // few megabytes the first time.
+    EXPECT_LT(peak.bytes(), 2.0 * 1000 * 4000) << name;
+  }
 }
 
 // Every kind of attribute comes back as its text, whatever the letters.
@@ -201,6 +222,33 @@ TEST(WriteExr, KeepsEveryChannel) {
     EXPECT_EQ(read.aovs[i].v, frame.aovs[i].v);
     EXPECT_EQ(read.aovs[i].triangle, frame.aovs[i].triangle);
   }
+}
+
+// More rows than are written at once, of a part of an image.
+TEST(WriteExr, KeepsEveryRow) {
+  const test::TemporaryFolder folder;
+  Frame frame;
+  frame.resize(3, 200, true);
+  for (std::size_t i = 0; i < frame.colors.size(); ++i) {
+    frame.colors[i] = vec4(static_cast<float>(i) / 600.0F);
+    frame.aovs[i].normal_z = vec4(static_cast<float>(i));
+  }
+  ImageContents contents;
+  contents.place = FramePlace{7, 11, 20, 300};
+  contents.aovs.push_back(Aov::position);
+  contents.position = [](uint32_t x, uint32_t y) { return glm::vec3(x, y, 5.0F); };
+  save_image(frame, folder / "a.exr", contents);
+  const ImageChannels channels(folder / "a.exr");
+  const auto expect_all = [&](const char* name, auto&& expected) {
+    const std::vector<uint32_t> bits = channels.bits(name);
+    ASSERT_EQ(bits.size(), 600U);
+    for (std::size_t i = 0; i < 600; ++i) {
+      EXPECT_EQ(std::bit_cast<float>(bits[i]), expected(i)) << name << " " << i;
+    }
+  };
+  expect_all("R", [&](std::size_t i) { return linear_from_srgb(frame.colors[i].x); });
+  expect_all("Z", [](std::size_t i) { return static_cast<float>(i); });
+  expect_all("P.Y", [](std::size_t i) { return static_cast<float>(i / 3); });
 }
 
 TEST(AtomicFile, AppearsWholeOrNotAtAll) {
