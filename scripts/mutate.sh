@@ -69,10 +69,11 @@ build() { # FOLDER PROGRAM...
 # All tests in one process, but those that measure or limit what a process of their own takes.
 all_tests=('unit_tests:*-FailingAllocations.*:ModelFile.ReadsInSixTimesItsSize:Memory.*' 'gpu_tests:*')
 
-# Whether tests of a program pass. $failed is left as the name of the first that fails, or how they ended.
-passes() { # FOLDER PROGRAM FILTER
+# Whether tests of a program pass in so many seconds, several times what they take where nothing is broken. $failed is left as
+# the name of the first that fails, or how they ended.
+passes() { # FOLDER PROGRAM FILTER SECONDS
   local code=0
-  timeout 1800 "$1/build/release/$2" --gtest_fail_fast --gtest_brief=1 --gtest_filter="$3" >"$1/test.log" 2>&1 || code=$?
+  timeout "$4" "$1/build/release/$2" --gtest_fail_fast --gtest_brief=1 --gtest_filter="$3" >"$1/test.log" 2>&1 || code=$?
   [ $code -ne 0 ] || return 0
   failed=$(sed -n 's/^\[  FAILED  \] \([^ ,]*\).*/\1/p' "$1/test.log" | head -n 1)
   if [ $code = 124 ]; then failed="no end"; elif [ -z "$failed" ]; then failed="ended with $code"; fi
@@ -81,15 +82,18 @@ passes() { # FOLDER PROGRAM FILTER
 
 # Adds to the results what a mutation comes to.
 mutate() { # FOLDER NAME
-  local folder=$1 name=$2 file failed="" tests test
+  local folder=$1 name=$2 file failed="" tests named test seconds i
   file=$(field "$name" file)
   FROM=$(field "$name" from) TO=$(field "$name" to) perl -0777 -pe '
     my $count = () = /\Q$ENV{FROM}\E/g;
     die "$ARGV has the text $count times, not once\n" unless $count == 1;
     s/\Q$ENV{FROM}\E/$ENV{TO}/' "$sources/$file" >"$folder/$file"
   IFS='|' read -ra tests <<<"$(field "$name" tests)"
+  named=${#tests[@]}
   [ -n "$(field "$name" reason)" ] || tests+=("${all_tests[@]}")
-  for test in "${tests[@]}"; do
+  for ((i = 0; i < ${#tests[@]}; ++i)); do
+    test=${tests[i]}
+    seconds=$([ $i -lt "$named" ] && echo 600 || echo 1800)
     if ! build "$folder" "${test%%:*}"; then
       if ! grep -q 'static assertion' "$folder/build.log"; then
         echo "$name does not compile: $(grep -m 1 'error:' "$folder/build.log")" >&2
@@ -99,7 +103,7 @@ mutate() { # FOLDER NAME
       failed="a static assertion"
       break
     fi
-    passes "$folder" "${test%%:*}" "${test#*:}" || break
+    passes "$folder" "${test%%:*}" "${test#*:}" "$seconds" || break
   done
   printf '%s\t%s\n' "$name" "$failed" | tee -a $results
   cp "$sources/$file" "$folder/$file"
@@ -116,7 +120,7 @@ run() {
   done
   jobs=1
   for ((k = 0; k < workers; ++k)); do
-    for ((i = k; i < ${#wanted[@]}; i += workers)); do mutate build/mutations/$k "${wanted[i]}"; done &
+    for ((w = k; w < ${#wanted[@]}; w += workers)); do mutate build/mutations/$k "${wanted[w]}"; done &
   done
   wait
   # What noticed them must pass where nothing is broken.
@@ -125,7 +129,7 @@ run() {
   jobs=$workers
   build build/mutations/0 unit_tests gpu_tests
   for program in unit_tests gpu_tests; do
-    passes build/mutations/0 $program "$noticing" || { echo "$failed fails in what is not broken" >&2; exit 1; }
+    passes build/mutations/0 $program "$noticing" 1800 || { echo "$failed fails in what is not broken" >&2; exit 1; }
   done
 }
 [ ${#wanted[@]} = 0 ] || run
@@ -160,7 +164,7 @@ Written by \`scripts/mutate.sh\`, which breaks the program in ${#names[@]} ways,
 smaller, signs and operators changed, in the solvers, traversals, bake, proofs and loaders
 ([mutations.json](../tests/mutations/mutations.json) has the texts). For each the test that failed first; the other tests were
 not run then. $survivors of them no test notices, $unexplained of those without a reason; of those with one the tests named for them
-were run. $([ $unknown = 0 ] || echo "$unknown have not been run yet.")
+were run.$([ $unknown = 0 ] || echo " $unknown have not been run yet.")
 
 | what is broken | where | first test that fails |
 |---|---|---|
