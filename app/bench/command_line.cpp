@@ -45,6 +45,7 @@ CommandLine::CommandLine(CLI::App& app)
   add_ablation();
   add_shape();
   add_stability();
+  add_terminator();
 }
 
 void CommandLine::add_frames(CLI::App& command, const MeasuredModels& defaults) {
@@ -166,6 +167,34 @@ void CommandLine::add_stability() {
       ->type_name("N");
 }
 
+void CommandLine::add_terminator() {
+  CLI::App& command = subcommand(
+      bench_, "terminator",
+      "Measure what shadows of flat triangles do to smooth surfaces, with and without what "
+      "renderers do about it, and write a report with pictures and plots");
+  add_models(command, terminator_.models);
+  add_report_folder(command, terminator_.output);
+  add_size(command, text_.size, fmt::format("{}x{}", terminator_.width, terminator_.height));
+  command
+      .add_option("--surface", text_.surface,
+                  "How triangles are curved: phong or sphere, default phong")
+      ->group(option_group::kSurface)
+      ->check(one_of({"phong", "sphere"}))
+      ->type_name("NAME");
+  command
+      .add_option("--lights", terminator_.lights,
+                  "Angles between the directions toward the light and toward the eye, in degrees, "
+                  "default 30,60,90,120")
+      ->group(option_group::kMeasuring)
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(number_from_to(0.0, 180.0))
+      ->type_name("DEGREES,...");
+  add_runs(command, terminator_.runs);
+  add_plots(command, terminator_.plots);
+  add_device(command, terminator_.device);
+}
+
 int CommandLine::run() {
   if (bench_.got_subcommand("stability")) return bench_stability(stability_);
   if (quick_) {
@@ -187,6 +216,11 @@ int CommandLine::run() {
     }
     apply_frames(shape_);
     return bench_shape(shape_);
+  }
+  if (bench_.got_subcommand("terminator")) {
+    apply_frames(terminator_);
+    if (text_.surface) terminator_.surface = surface_of(*text_.surface);
+    return bench_terminator(terminator_);
   }
   const auto apply = [&](MeasuredModels& options) {
     apply_frames(options);

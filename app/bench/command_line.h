@@ -40,6 +40,7 @@ class CommandLine {
   void add_ablation();
   void add_shape();
   void add_stability();
+  void add_terminator();
 
   CLI::App& bench_;
   BenchOptions speed_;
@@ -47,6 +48,7 @@ class CommandLine {
   AblationOptions ablation_;
   ShapeOptions shape_;
   StabilityOptions stability_;
+  TerminatorOptions terminator_;
   Text text_;  // of all but stability
   bool quick_ = false;
 };

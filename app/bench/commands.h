@@ -20,6 +20,9 @@ int bench_ablation(const AblationOptions& options);
 // into a folder.
 int bench_shape(const ShapeOptions& options);
 
+// Measures what shadows of flat triangles do to smooth surfaces, and writes a report into a folder.
+int bench_terminator(const TerminatorOptions& options);
+
 // Measures errors over distance, scale and other parameters, and writes a report into a folder.
 int bench_stability(const StabilityOptions& options);
 

@@ -67,6 +67,18 @@ struct ShapeOptions : TimedModels {
   bool plots = true;   // by gnuplot
 };
 
+struct TerminatorOptions : TimedModels {
+  TerminatorOptions() {
+    width = 320;
+    height = 240;
+  }
+
+  uint surface = SURFACE_PHONG;
+  std::vector<double> lights{30.0, 60.0, 90.0, 120.0};  // degrees from the eye
+  std::string output;                                   // a folder
+  bool plots = true;                                    // by gnuplot
+};
+
 struct StabilityOptions {
   uint32_t rays = 100;  // for each value of the parameter that is varied
   std::string output;   // a folder

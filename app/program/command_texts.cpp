@@ -146,6 +146,14 @@ const std::map<std::string, CommandTexts>& texts() {
          {"Without plots, with distances down to a millionth of the radius",
           "trisect bench shape coarse.glb --reference fine.glb --error 1e-6 --no-plots -o "
           "shape"}}}},
+      {"trisect bench terminator",
+       {{"A pixel is wrong if the light reaches it in truth and not in the picture, or the other "
+         "way round. The truth is the curved surface's, by the oracle, an independent search in "
+         "double precision; pixels that it cannot decide are left out."},
+        {{"A coarse sphere in four lights", "trisect bench terminator sphere-80.obj -o terminator"},
+         {"Two models in two lights, without plots",
+          "trisect bench terminator teapot.obj torus.obj --lights 60,100 --no-plots -o "
+          "terminator"}}}},
       {"trisect bench ablation",
        {{},
         {{"What each step is worth", "trisect bench ablation sphere-320.obj -o steps"},

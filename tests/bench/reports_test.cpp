@@ -114,6 +114,39 @@ TEST_F(Reports, SpeedAgainstErrorNeedsNoGnuplotAndNoOpenGl) {
   EXPECT_NE(text.find("| robust, tiles |"), std::string::npos);
 }
 
+TEST_F(Reports, ReportsShadowTerminators) {
+  const std::string model = test::asset_path("sphere-80");
+  expect_complaint(test::run_trisect({"bench", "terminator", model, model, "-o", folder_ / "t"}), 2,
+                   "two models are named sphere-80");
+  const test::ProgramRun run =
+      test::run_trisect({"bench", "terminator", model, "--lights", "60,100", "--size", "64x48",
+                         "--runs", "1", "-o", folder_ / "t"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const char* name : {"terminator.md", "terminator.html", "terminator.csv", "sphere-80.png",
+                           "sphere-80-errors.svg", "sphere-80-errors.png"}) {
+    EXPECT_GT(std::filesystem::file_size(folder_ / "t" / name), 500U) << name;
+  }
+  std::ifstream file(folder_ / "t" / "terminator.json");
+  const auto rows = nlohmann::json::parse(file)["rows"];
+  ASSERT_EQ(rows.size(), 16U);
+  for (const auto& row : rows) {
+    const std::size_t wrong =
+        row["wrongly_dark"].get<std::size_t>() + row["wrongly_bright"].get<std::size_t>();
+    EXPECT_GT(row["pixels"], row["lit"]);
+    if (row["shadows"] == "curved") {
+      EXPECT_EQ(wrong, 0U) << row;
+      // Roundings of single precision.
+      EXPECT_LT(row["brightness_rmse"], 1e-6) << row;
+    } else {
+      EXPECT_GT(wrong, 0U) << row;
+    }
+  }
+  // Beginning on the tangent planes leaves less in the dark.
+  EXPECT_EQ(rows[1]["shadows"], "flat");
+  EXPECT_EQ(rows[4]["shadows"], "Hanika 2021");
+  EXPECT_LT(rows[4]["wrongly_dark"], rows[1]["wrongly_dark"]);
+}
+
 TEST_F(Reports, ReportsHowNearModelsComeToAShape) {
   const std::string coarse = test::asset_path("sphere-20");
   const std::string fine = test::asset_path("sphere-320");

@@ -248,7 +248,10 @@ TEST(WriteExr, KeepsEveryRow) {
   };
   expect_all("R", [&](std::size_t i) { return linear_from_srgb(frame.colors[i].x); });
   expect_all("Z", [](std::size_t i) { return static_cast<float>(i); });
-  expect_all("P.Y", [](std::size_t i) { return static_cast<float>(i / 3); });
+  expect_all("P.Y", [](std::size_t i) {
+    const std::size_t row = i / 3;
+    return static_cast<float>(row);
+  });
 }
 
 TEST(AtomicFile, AppearsWholeOrNotAtAll) {

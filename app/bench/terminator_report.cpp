@@ -1,0 +1,181 @@
+#include "app/bench/terminator_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/bench/gnuplot.h"
+#include "app/report/columns.h"
+
+namespace trisect::bench {
+namespace {
+
+using report::Columns;
+
+// Of what is lit in truth.
+double dark_percent(const TerminatorRow& row) {
+  return row.lit == 0 ? 0.0 : 100.0 * static_cast<double>(row.dark) / static_cast<double>(row.lit);
+}
+
+// Of what is in shadow in truth.
+double bright_percent(const TerminatorRow& row) {
+  const std::size_t shadow = row.pixels - row.lit;
+  return shadow == 0 ? 0.0 : 100.0 * static_cast<double>(row.bright) / static_cast<double>(shadow);
+}
+
+const Columns<TerminatorRow>& terminator_columns() {
+  // clang-format off
+  static const Columns<TerminatorRow> columns{
+      {{"model", "{}"}, "model", {"model", "{}"}, [](auto& r) { return r.model; }},
+      {{"triangles", "{}"}, "triangles", {}, [](auto& r) { return r.triangles; }},
+      {{"light", "{:g}"}, "light_degrees", {"light", "{:g}"}, [](auto& r) { return r.light; }},
+      {{"shadows", "\"{}\""}, "shadows", {"shadows", "{}"}, [](auto& r) { return r.shadows; }},
+      {{"pixels", "{}"}, "pixels", {"pixels", "{}"}, [](auto& r) { return r.pixels; }},
+      {{"lit", "{}"}, "lit", {"lit", "{}"}, [](auto& r) { return r.lit; }},
+      {{"dark", "{}"}, "wrongly_dark", {"wrongly dark", "{}"}, [](auto& r) { return r.dark; }},
+      {{"bright", "{}"}, "wrongly_bright", {"wrongly bright", "{}"}, [](auto& r) { return r.bright; }},
+      {{"rmse", "{:.4e}"}, "brightness_rmse", {"RMSE", "{:.1e}"}, [](auto& r) { return r.rmse; }},
+      {{"ms_min", "{:.3f}"}, "ms.min", {}, [](auto& r) { return r.ms.min; }},
+      {{"ms_median", "{:.3f}"}, "ms.median", {"ms", "{:.1f}"}, [](auto& r) { return r.ms.median; }},
+      {{"ms_max", "{:.3f}"}, "ms.max", {}, [](auto& r) { return r.ms.max; }},
+  };
+  // clang-format on
+  return columns;
+}
+
+const Columns<TerminatorRow>& summary_columns() {
+  // clang-format off
+  static const Columns<TerminatorRow> columns{
+      {{}, "", {"model", "{}"}, [](auto& r) { return r.model; }},
+      {{}, "", {"triangles", "{}"}, [](auto& r) { return r.triangles; }},
+      {{}, "", {"shadows", "{}"}, [](auto& r) { return r.shadows; }},
+      {{}, "", {"lit", "{}"}, [](auto& r) { return r.lit; }},
+      {{}, "", {"wrongly dark", "{}"}, [](auto& r) { return r.dark; }},
+      {{}, "", {"% of lit", "{:.2f}"}, dark_percent},
+      {{}, "", {"wrongly bright", "{}"}, [](auto& r) { return r.bright; }},
+      {{}, "", {"% of shadow", "{:.2f}"}, bright_percent},
+      {{}, "", {"RMSE", "{:.1e}"}, [](auto& r) { return r.rmse; }},
+      {{}, "", {"ms", "{:.1f}"}, [](auto& r) { return r.ms.median; }},
+  };
+  // clang-format on
+  return columns;
+}
+
+// The row of those that is the best by both kinds of wrong pixels; null if there is none.
+const TerminatorRow* best_of(const std::vector<const TerminatorRow*>& rows) {
+  const auto best = std::min_element(rows.begin(), rows.end(), [](const auto* a, const auto* b) {
+    return a->dark + a->bright < b->dark + b->bright;
+  });
+  return best == rows.end() ? nullptr : *best;
+}
+
+std::string wrong_text(const TerminatorRow& row) {
+  return fmt::format("{} ({:.2g}%) wrongly dark and {} wrongly bright", row.dark, dark_percent(row),
+                     row.bright);
+}
+
+}  // namespace
+
+std::vector<TerminatorRow> over_lights(const std::vector<TerminatorRow>& rows) {
+  std::vector<TerminatorRow> sums;
+  std::vector<std::size_t> lights;
+  for (const TerminatorRow& row : rows) {
+    const auto same = std::find_if(sums.begin(), sums.end(), [&](const TerminatorRow& sum) {
+      return sum.model == row.model && sum.shadows == row.shadows;
+    });
+    if (same == sums.end()) {
+      sums.push_back(row);
+      lights.push_back(1);
+      continue;
+    }
+    const double squares = same->rmse * same->rmse * static_cast<double>(same->pixels) +
+                           row.rmse * row.rmse * static_cast<double>(row.pixels);
+    same->pixels += row.pixels;
+    same->lit += row.lit;
+    same->dark += row.dark;
+    same->bright += row.bright;
+    same->rmse = same->pixels == 0 ? 0.0 : std::sqrt(squares / static_cast<double>(same->pixels));
+    const auto k = static_cast<std::size_t>(same - sums.begin());
+    const auto before = static_cast<double>(lights[k]);
+    same->ms.median = (same->ms.median * before + row.ms.median) / (before + 1.0);
+    ++lights[k];
+  }
+  return sums;
+}
+
+std::string csv_of(const std::vector<TerminatorRow>& rows) {
+  return terminator_columns().csv(rows);
+}
+
+nlohmann::ordered_json json_of(const std::vector<TerminatorRow>& rows) {
+  return terminator_columns().json(rows);
+}
+
+report::Table table_of(const std::vector<TerminatorRow>& rows) {
+  return terminator_columns().table(rows);
+}
+
+report::Table summary_table_of(const std::vector<TerminatorRow>& rows) {
+  return summary_columns().table(rows);
+}
+
+std::vector<std::string> findings_of(const std::vector<TerminatorRow>& rows) {
+  const std::vector<TerminatorRow> sums = over_lights(rows);
+  std::vector<std::string> findings;
+  // Rows of a model follow each other: the curved surface's, flat triangles', and what others do.
+  for (auto first = sums.begin(); first != sums.end();) {
+    const auto end = std::find_if(
+        first, sums.end(), [&](const TerminatorRow& row) { return row.model != first->model; });
+    std::vector<const TerminatorRow*> fixes;
+    for (auto row = first + 2; row < end; ++row) {
+      if (row->shadows != kNoShadows) fixes.push_back(&*row);
+    }
+    std::string text = fmt::format(
+        "{}, {} triangles, of {} pixels that are lit: curved shadows leave {}; flat ones {}",
+        first->model, first->triangles, first->lit, wrong_text(*first), wrong_text(*(first + 1)));
+    if (const TerminatorRow* best = best_of(fixes)) {
+      text += fmt::format("; of what renderers do about it, {} does best, with {}", best->shadows,
+                          wrong_text(*best));
+    }
+    findings.push_back(text + ".");
+    first = end;
+  }
+  return findings;
+}
+
+std::string terminator_plot(const std::vector<TerminatorRow>& rows, const std::string& terminal,
+                            const std::string& file) {
+  std::vector<std::string> all;
+  all.reserve(rows.size());
+  for (const TerminatorRow& row : rows) all.push_back(row.shadows);
+  const std::vector<std::string> names = distinct(all);
+  std::string script =
+      two_panels(terminal, file,
+                 fmt::format("{}, {} triangles", rows.front().model, rows.front().triangles)) +
+      "unset logscale\nset yrange [0:*]\n";
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    script += fmt::format("$way{} << EOD\n", k);
+    for (const TerminatorRow& row : rows) {
+      if (row.shadows != names[k]) continue;
+      script += fmt::format("{} {} {}\n", row.light, dark_percent(row), row.rmse);
+    }
+    script += "EOD\n";
+  }
+  const auto curves = [&](int column) {
+    std::vector<std::string> parts;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      parts.push_back(
+          fmt::format("$way{} using 1:{} with linespoints {}", k, column, curve_style(names, k)));
+    }
+    return fmt::format("plot {}\n", fmt::join(parts, ", "));
+  };
+  return script + fmt::format(
+                      "set xlabel \"degrees between light and eye\"\n"
+                      "set ylabel \"wrongly dark, % of what is lit\"\n{}"
+                      "set ylabel \"error of the brightness, RMS\"\n{}unset multiplot\n",
+                      curves(2), curves(3));
+}
+
+}  // namespace trisect::bench
