@@ -22,7 +22,7 @@ row() {
       result=$(cat "$work"/a.* 2>/dev/null | wc -c)
       if [ "$result" = 0 ]; then result="read"; else result="written, $(jq -n "$result / 1e6 | . * 10 | round / 10") MB"; fi
       ;;
-    2 | 6) # more pixels than there may be, or out of memory
+    2 | 4 | 6) # more pixels than there may be, more than the device can hold, or out of memory
       [ "$(wc -l <"$work/errors")" = 1 ] || { echo "$what: $(cat "$work/errors")" >&2; exit 1; }
       result="refused: $(sed "s|$work/||g" "$work/errors")"
       ;;
