@@ -131,6 +131,14 @@ run() {
   for program in unit_tests gpu_tests; do
     passes build/mutations/0 $program "$noticing" 1800 || { echo "$failed fails in what is not broken" >&2; exit 1; }
   done
+  # And what did not end must end.
+  local name test
+  while read -r name; do
+    IFS='|' read -ra tests <<<"$(field "$name" tests)"
+    for test in "${tests[@]}"; do
+      passes build/mutations/0 "${test%%:*}" "${test#*:}" 600 || { echo "$test fails in what is not broken" >&2; exit 1; }
+    done
+  done < <(sed -n 's/\tno end$//p' $results)
 }
 [ ${#wanted[@]} = 0 ] || run
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/bench/gnuplot.h"
 #include "app/report/columns.h"
 
 namespace trisect::bench {
@@ -86,7 +87,10 @@ nlohmann::ordered_json json_of(const std::vector<Ablation>& ablations) {
 std::string plot_script(const Ablation& ablation, const std::string& terminal,
                         const std::string& file) {
   std::string script =
-      fmt::format("set terminal {}\nset output \"{}\"\n$steps << EOD\n", terminal, file);
+      page(terminal, file, "",
+           fmt::format("{}, {} patches, {}", ablation.model, ablation.patches,
+                       surface_name(ablation.surface))) +
+      "$steps << EOD\n";
   for (std::size_t i = 0; i < ablation.steps.size(); ++i) {
     const Step& step = ablation.steps[i];
     script +=
@@ -97,7 +101,6 @@ std::string plot_script(const Ablation& ablation, const std::string& terminal,
   // one has no 0.
   return script + fmt::format(
                       "EOD\n"
-                      "set multiplot title \"{}, {} patches, {}\"\n"
                       "set style fill solid 0.7\nset grid x\nset logscale x\nset format x "
                       "\"10^{{%L}}\"\nset yrange [{}:-1]\nunset key\n"
                       "set lmargin 46\nset origin 0,0\nset size 0.68,0.94\nset xrange [1:*]\n"
@@ -108,7 +111,6 @@ std::string plot_script(const Ablation& ablation, const std::string& terminal,
                       "set xlabel \"wrong or missed pixels (none: at 0.5)\"\n"
                       "plot $steps using 4:0:(0.1):4:($0-0.35):($0+0.35) with boxxyerror lc 2\n"
                       "unset multiplot\n",
-                      ablation.model, ablation.patches, surface_name(ablation.surface),
                       ablation.steps.size());
 }
 

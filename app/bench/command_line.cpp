@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/base/error.h"
 #include "app/bench/commands.h"
 #include "app/cli/command_options.h"
@@ -181,6 +183,7 @@ void CommandLine::add_terminator() {
       ->group(option_group::kSurface)
       ->check(one_of({"phong", "sphere"}))
       ->type_name("NAME");
+  add_alpha(command, terminator_.surface.alpha);
   command
       .add_option("--lights", terminator_.lights,
                   "Angles between the directions toward the light and toward the eye, in degrees, "
@@ -219,7 +222,10 @@ int CommandLine::run() {
   }
   if (bench_.got_subcommand("terminator")) {
     apply_frames(terminator_);
-    if (text_.surface) terminator_.surface = surface_of(*text_.surface);
+    if (text_.surface) terminator_.surface.surface = surface_of(*text_.surface);
+    std::vector<double>& lights = terminator_.lights;
+    std::sort(lights.begin(), lights.end());
+    lights.erase(std::unique(lights.begin(), lights.end()), lights.end());
     return bench_terminator(terminator_);
   }
   const auto apply = [&](MeasuredModels& options) {

@@ -55,6 +55,15 @@ void run_gnuplot(const std::string& script) {
   }
 }
 
+std::string gnuplot_text(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) {
+    if (c == '\'') quoted += c;
+    quoted += static_cast<unsigned char>(c) < ' ' ? '?' : c;
+  }
+  return quoted + "'";
+}
+
 std::vector<std::string> distinct(const std::vector<std::string>& names) {
   std::vector<std::string> result;
   for (const std::string& name : names) {
@@ -65,18 +74,23 @@ std::vector<std::string> distinct(const std::vector<std::string>& names) {
 
 std::string curve_style(const std::vector<std::string>& names, std::size_t k) {
   // All around the circle of hues, light and dark by turns.
-  return fmt::format("pt {} lc rgb hsv2rgb({:.3f}, 1, {}) title \"{}\"", k + 1,
+  return fmt::format("pt {} lc rgb hsv2rgb({:.3f}, 1, {}) title {} noenhanced", k + 1,
                      static_cast<double>(k) / static_cast<double>(names.size()),
-                     k % 2 == 0 ? 0.9 : 0.6, names[k]);
+                     k % 2 == 0 ? 0.9 : 0.6, gnuplot_text(names[k]));
+}
+
+std::string page(const std::string& terminal, const std::string& file, const std::string& layout,
+                 const std::string& title) {
+  return fmt::format("set terminal {}\nset output {}\nset multiplot {} title {} noenhanced\n",
+                     terminal, gnuplot_text(file), layout.empty() ? "" : "layout " + layout,
+                     gnuplot_text(title));
 }
 
 std::string two_panels(const std::string& terminal, const std::string& file,
                        const std::string& title) {
-  return fmt::format(
-      "set terminal {}\nset output \"{}\"\nset multiplot layout 1,2 title \"{}\"\n"
-      "set logscale xy\nset offsets graph 0.05, graph 0.05, 0, 0\nset grid\n"
-      "set key outside bottom center horizontal maxcols 2\n",
-      terminal, file, title);
+  return page(terminal, file, "1,2", title) +
+         "set logscale xy\nset offsets graph 0.05, graph 0.05, 0, 0\nset grid\n"
+         "set key outside bottom center horizontal maxcols 2\n";
 }
 
 }  // namespace trisect::bench

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/surface/shared.h"
+#include "app/surface/surface_choice.h"
 
 namespace trisect {
 
@@ -73,7 +74,7 @@ struct TerminatorOptions : TimedModels {
     height = 240;
   }
 
-  uint surface = SURFACE_PHONG;
+  SurfaceChoice surface{SURFACE_PHONG};
   std::vector<double> lights{30.0, 60.0, 90.0, 120.0};  // degrees from the eye
   std::string output;                                   // a folder
   bool plots = true;                                    // by gnuplot

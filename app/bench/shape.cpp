@@ -5,23 +5,20 @@
 #include <memory>
 #include <utility>
 
-#include "app/bake/bvh.h"
 #include "app/bake/subpatch_bounds.h"
 #include "app/base/error.h"
 #include "app/bench/contender.h"
 #include "app/bench/decimated.h"
 #include "app/bench/image_errors.h"
+#include "app/bench/model_steps.h"
 #include "app/bench/tessellation.h"
 #include "app/cli/interrupt.h"
-#include "app/cli/load_scene.h"
 #include "app/cli/named.h"
 #include "app/cli/progress_line.h"
 #include "app/crosscheck/frame_comparison.h"
 #include "app/dispatch/accel.h"
 #include "app/dispatch/trace_settings.h"
 #include "app/mesh/bounds.h"
-#include "app/mesh/mesh_builder.h"
-#include "app/mesh/model_file.h"
 #include "app/mesh/obj_file.h"
 #include "app/tessellation/flat_mesh.h"
 
@@ -43,11 +40,6 @@ std::vector<SurfaceChoice> choices() {
           {SURFACE_SPHERE, 0.65, SHELL_NORMAL}};
 }
 
-Mesh read_mesh(const std::string& file) {
-  const BusyLine line("reading " + file);
-  return build_mesh(read_model(file), file).mesh;
-}
-
 // The surface as triangles, for distances: flat ones as they are. Where `error` takes more
 // triangles than there may be, so that they are off the surface by ten times that, or a hundred.
 FlatMesh triangles_of(const std::string& model, const Mesh& mesh, const BakedScene& scene,
@@ -65,10 +57,6 @@ FlatMesh triangles_of(const std::string& model, const Mesh& mesh, const BakedSce
     }
   }
   return named(model, [&] { return finished(divided_to(mesh, scene, 100.0 * error, show)); });
-}
-
-BakedScene baked(const std::string& model, const Mesh& mesh, const SurfaceChoice& choice) {
-  return named(model, [&] { return bake_showing_progress(mesh, choice); });
 }
 
 // Distances between models that are apart say nothing about their shape.
@@ -127,11 +115,6 @@ Frame frame_of(const gpu::Device& device, const Drawn& drawn) {
   Frame frame;
   contender_for(device, drawn)->inspect(frame);
   return frame;
-}
-
-void add_tree(BakedScene& scene) {
-  const BusyLine line("building the tree");
-  scene.bvh = build_bvh(scene);
 }
 
 std::unique_ptr<Drawn> drawn(const gpu::Device& device, const ShapeOptions& options,

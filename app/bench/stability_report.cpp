@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/bench/gnuplot.h"
 #include "app/report/columns.h"
 
 namespace trisect::bench {
@@ -100,9 +101,9 @@ nlohmann::ordered_json json_of(const std::vector<StabilityAxis>& axes) {
 std::string plot_script(const std::vector<StabilityAxis>& axes, const std::string& terminal,
                         const std::string& file) {
   std::string script = fmt::format(
-      "set terminal {}\nset output \"{}\"\nset multiplot layout 2,3\nset grid\nset logscale y\n"
+      "set terminal {}\nset output {}\nset multiplot layout 2,3\nset grid\nset logscale y\n"
       "set format y \"10^{{%L}}\"\nset yrange [1e-9:2]\nset key center right\n",
-      terminal, file);
+      terminal, gnuplot_text(file));
   for (const StabilityAxis& axis : axes) {
     std::vector<std::string> curves;
     for (std::size_t k = 0; k < axis.curves.size(); ++k) {

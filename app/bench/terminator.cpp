@@ -4,26 +4,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
 
-#include "app/bake/bvh.h"
 #include "app/bake/subpatch_bounds.h"
 #include "app/base/parallel_rows.h"
 #include "app/base/stopwatch.h"
 #include "app/bench/contender.h"
 #include "app/bench/embree_triangles.h"
+#include "app/bench/model_steps.h"
 #include "app/bench/terminator_fixes.h"
 #include "app/cli/interrupt.h"
-#include "app/cli/load_scene.h"
-#include "app/cli/named.h"
 #include "app/cli/progress_line.h"
 #include "app/dispatch/kernel_float.h"
 #include "app/frame/draw_text.h"
-#include "app/mesh/mesh_builder.h"
-#include "app/mesh/model_file.h"
 #include "app/mesh/obj_file.h"
 #include "app/oracle/oracle_tracer.h"
 #include "app/surface/surface_double.h"
@@ -69,7 +66,8 @@ struct Lit {
 
 using LitPixels = std::vector<Lit>;
 
-// A light by its angle with the direction toward the eye, a third of it from above.
+// The direction toward a light: off the direction toward the eye by that angle, to the right and 30
+// degrees up.
 dvec3 light_at(double degrees, const Camera& camera) {
   const dvec3 back = glm::normalize(camera.eye - camera.target);
   const dvec3 right = glm::normalize(glm::cross(camera.up, back));
@@ -132,12 +130,13 @@ class CurvedShadows {
     return {made(true), made(false)};
   }
 
-  CurvedShadows(const Pair& kernels, const TraceParams& params)
+  CurvedShadows(const Pair& kernels, const BakedScene& scene, const TraceParams& params)
       : params_(params),
+        kernel_(in_float::kernel_of(scene, params_, {})),
         shadowed_(on_vulkan(kernels.shadowed, params)),
         open_(on_vulkan(kernels.open, params)) {}
 
-  LitPixels cast() const {
+  LitPixels cast() {
     Frame dark;
     Frame open;
     shadowed_->inspect(dark);
@@ -148,12 +147,16 @@ class CurvedShadows {
       if (hit.triangle == NO_TRIANGLE) continue;
       const auto x = static_cast<uint32_t>(i % params_.width);
       const auto y = static_cast<uint32_t>(i / params_.width);
-      const vec3 normal =
-          in_float::facing(vec3(hit.normal_z), vec3(oracle_pixel_ray(params_, x, y).ray.direction));
-      const float cosine = glm::dot(normal, vec3(params_.light));
+      const vec3 view(oracle_pixel_ray(params_, x, y).ray.direction);
+      const float cosine =
+          glm::dot(in_float::facing(vec3(hit.normal_z), view), vec3(params_.light));
+      // The frame has one of two colours there, but for roundings.
+      const auto off = [&](const vec4& color) {
+        return glm::length(vec3(dark.colors[i]) - vec3(color));
+      };
+      const bool is_dark = off(kernel_.shadow_color(hit, view)) < off(open.colors[i]);
       pixels[i].is_seen = true;
-      // What is in shadow has another colour there.
-      pixels[i].is_lit = cosine > 0.0F && dark.colors[i] == open.colors[i];
+      pixels[i].is_lit = cosine > 0.0F && !is_dark;
       pixels[i].brightness = pixels[i].is_lit ? cosine : 0.0F;
     }
     return pixels;
@@ -163,6 +166,7 @@ class CurvedShadows {
 
  private:
   TraceParams params_;
+  Kernel kernel_;
   std::unique_ptr<Contender> shadowed_;
   std::unique_ptr<Contender> open_;
 };
@@ -308,7 +312,7 @@ class Sheet {
     for (uint32_t y = 0; y < height_; ++y) {
       for (uint32_t x = 0; x < width_; ++x) {
         const Lit& pixel = pixels[std::size_t{y} * width_ + x];
-        // As cameras see it, but for sRGB's exact curve. Some light comes from all around.
+        // A root stands for sRGB's curve. Some light comes from all around.
         const float grey = pixel.is_seen ? std::sqrt(0.03F + 0.9F * pixel.brightness) : 0.35F;
         frame_.colors[std::size_t{top + y} * frame_.width + left + x] =
             vec4(grey, grey, grey, 1.0F);
@@ -329,20 +333,31 @@ class Sheet {
   Frame frame_;
 };
 
+// Milliseconds of the last of so many frames that 20 ms have passed, as take_turn().
+template <typename FrameMs>
+double turn(FrameMs&& frame_ms) {
+  const Stopwatch watch;
+  double last = 0.0;
+  do {
+    last = frame_ms();
+  } while (watch.milliseconds() < 20.0);
+  return last;
+}
+
+// A way with its times.
+struct Timed {
+  TerminatorRow row;
+  std::function<double()> turn;
+  std::vector<double> times;
+};
+
 void measure_model(const gpu::Device& device, const std::string& file,
                    const TerminatorOptions& options, Terminator& result) {
-  const Mesh mesh = [&] {
-    const BusyLine line("reading " + file);
-    return build_mesh(read_model(file), file).mesh;
-  }();
-  BakedScene scene = named(file, [&] {
-    return bake_showing_progress(mesh, {options.surface, 0.65, SHELL_NORMAL});
-  });
-  {
-    const BusyLine line("building the tree");
-    scene.bvh = build_bvh(scene);
-  }
+  const Mesh mesh = read_mesh(file);
+  BakedScene scene = baked(file, mesh, options.surface);
+  add_tree(scene);
   TraceSettings settings = framed_settings(mesh, scene, options.width, options.height);
+  settings.own_colors = false;
   const OracleFrame seen = [&] {
     ProgressLine line("tracing with the oracle", options.height);
     return finished(trace_with_oracle(scene, make_params(scene, settings),
@@ -359,27 +374,39 @@ void measure_model(const gpu::Device& device, const std::string& file,
     const TraceParams params = make_params(scene, settings);
     const LitPixels right = truth(oracle, seen, scene, params);
     sheet.add(0, k, "truth", right, options.lights[k]);
-    const LitPixels without = flat.cast(ways().front(), params);
-    uint32_t column = 1;
-    const auto add = [&](const std::string& shadows, const LitPixels& pixels, auto&& frame_ms) {
-      TerminatorRow row{model_name(file), mesh.triangles.size(), options.lights[k], shadows};
-      compare(pixels, right, without, row);
-      std::vector<double> times;
-      for (uint32_t run = 0; run < options.runs; ++run) times.push_back(frame_ms());
-      row.ms = spread_of(times);
-      sheet.add(column, k, shadows, pixels, options.lights[k]);
-      ++column;
-      result.rows.push_back(std::move(row));
+    const LitPixels plain = flat.cast(ways().front(), params);
+    std::vector<Timed> timed;
+    const auto add = [&](const std::string& shadows, const LitPixels& pixels, auto&& turn_ms) {
+      Timed one{{model_name(file), mesh.triangles.size(), options.lights[k], shadows}, turn_ms, {}};
+      compare(pixels, right, plain, one.row);
+      timed.push_back(std::move(one));
+      sheet.add(static_cast<uint32_t>(timed.size()), k, shadows, pixels, options.lights[k]);
     };
-    const CurvedShadows curved(kernels, params);
+    CurvedShadows curved(kernels, scene, params);
     Frame frame;
     add("curved", curved.cast(), [&] { return take_turn(curved.shadowed(), frame).ms; });
     for (const FlatShadows& way : ways()) {
-      add(way.name, flat.cast(way, params), [&] {
-        const Stopwatch watch;
-        flat.cast(way, params);
-        return watch.milliseconds();
+      const bool is_plain = &way == &ways().front();
+      add(way.name, is_plain ? plain : flat.cast(way, params), [&flat, &params, &way = way] {
+        return turn([&] {
+          const Stopwatch watch;
+          flat.cast(way, params);
+          return watch.milliseconds();
+        });
       });
+    }
+    ProgressLine line("timing frames", options.runs);
+    for (Timed& one : timed) one.turn();
+    for (uint32_t run = 0; run < options.runs; ++run) {
+      for (Timed& one : timed) {
+        one.times.push_back(one.turn());
+        stop_if_interrupted();
+      }
+      line.show(run + 1);
+    }
+    for (Timed& one : timed) {
+      one.row.ms = spread_of(one.times);
+      result.rows.push_back(std::move(one.row));
     }
   }
   result.sheets.push_back(sheet.take());

@@ -9,6 +9,7 @@
 #include "app/bench/commands.h"
 #include "app/bench/gnuplot.h"
 #include "app/bench/report_files.h"
+#include "app/bench/shape_report.h"
 #include "app/bench/terminator.h"
 #include "app/bench/terminator_report.h"
 #include "app/cli/cache_folder.h"
@@ -27,20 +28,22 @@ namespace {
 using report::Block;
 
 std::vector<Block> report_of(const std::vector<bench::TerminatorRow>& rows,
-                             const std::vector<std::string>& models, const std::string& surface,
+                             const std::vector<std::string>& models,
                              const std::vector<std::string>& facts, bool plots) {
   std::vector<Block> blocks{
       report::Heading{1, "Shadow terminators"}, report::Items{facts},
-      report::Paragraph{fmt::format(
+      report::Paragraph{
           "Where a coarse model with smooth normals turns from the light, the shadows of its flat "
-          "triangles fall in steps. Shadows of the curved surface ({}) do not. The truth is that "
-          "surface's, by an independent search in double precision; pixels that it cannot decide, "
-          "or at which only the flat or only the curved surface is seen, are left out.",
-          surface)},
+          "triangles fall in steps. The curved surface has hardly any of its own, where its patches "
+          "meet (docs/shadows.md measures them). The truth here is the curved surface, by an "
+          "independent search in double precision: that curved shadows leave nothing wrong says "
+          "that the program draws its surface right. Pixels whose answer the roundings of single "
+          "precision decide, or at which only the flat or only the curved surface is seen, are left "
+          "out."},
       report::Items{bench::findings_of(rows)}};
   for (const std::string& model : models) {
     blocks.emplace_back(report::Heading{2, model});
-    blocks.emplace_back(report::Picture{model + ".png", "Light and shadow, " + model});
+    blocks.emplace_back(report::Picture{model + "-lights.png", "Light and shadow, " + model});
     if (plots) {
       blocks.emplace_back(report::Picture{model + "-errors.svg", "Wrong pixels, " + model});
     }
@@ -52,14 +55,14 @@ std::vector<Block> report_of(const std::vector<bench::TerminatorRow>& rows,
            "flat: shadow rays begin on the flat triangle. offset: so far off it, over the mean "
            "edge. Hanika 2021: on the interpolated tangent planes of the vertices (Ray Tracing "
            "Gems II, chapter 4). Cycles: the geometry offset of Blender 2.90 and later, with its "
-           "threshold of 0.1. Chiang 2019: on the triangle, and dimmed where it turns away "
-           "(Chiang, Li and Burley, Taming the shadow terminator). wrongly dark: lit in truth. "
+           "threshold of 0.1. Chiang 2019: on the triangle, and what is lit beside is dimmed to "
+           "soften the edge (Chiang, Li and Burley, Taming the shadow terminator). no shadows: what "
+           "faces the light is lit; what is wrongly dark there is so because flat triangles are "
+           "seen in other places, with other normals, than the surface. wrongly dark: lit in truth. "
            "wrongly bright: in shadow in truth. RMSE: of the brightness, the cosine between light "
-           "and interpolated normal. no shadows: what faces the light is lit; what is wrong there "
-           "is so "
-           "because flat triangles are seen in other places than the surface. ms: of a frame with "
-           "its shadows, of curved ones on the device "
-           "above, of flat ones by Embree, ray by ray."},
+           "and interpolated normal. ms: of a frame with its shadows; of curved ones by the clock "
+           "of the device above, of flat ones, which are traced ray by ray with Embree, by the "
+           "host's."},
        bench::summary_table_of(bench::over_lights(rows)), report::Heading{2, "Each light"},
        report::Paragraph{"light: degrees between the directions toward the light and the eye."},
        bench::table_of(rows)});
@@ -93,7 +96,7 @@ int bench_terminator(const TerminatorOptions& options) {
   std::vector<std::string> models;
   for (std::size_t k = 0; k < options.models.size(); ++k) {
     const std::string& model = models.emplace_back(model_name(options.models[k]));
-    save_image(measured.sheets[k], folder.path() / (model + ".png"));
+    save_image(measured.sheets[k], folder.path() / (model + "-lights.png"));
     if (!options.plots) continue;
     std::vector<bench::TerminatorRow> own;
     for (const bench::TerminatorRow& row : rows) {
@@ -105,12 +108,13 @@ int bench_terminator(const TerminatorOptions& options) {
   }
   const std::vector<std::string> facts{
       fmt::format("{}, {}", device.report().name, device.report().driver), bench::threads_fact(),
-      program_and_date(), bench::frames_fact(options)};
+      program_and_date(), bench::frames_fact(options),
+      "surface: " + bench::surface_text(options.surface)};
   folder.write("terminator.csv",
                fmt::format("# {}\n{}", fmt::join(facts, "\n# "), bench::csv_of(rows)));
   folder.write("terminator.json", json_text({{"facts", facts}, {"rows", bench::json_of(rows)}}));
   const std::vector<Block> blocks =
-      report_of(rows, models, surface_name(options.surface), facts, options.plots);
+      report_of(rows, models, facts, options.plots);
   folder.write("terminator.md", report::markdown_of(blocks));
   folder.write("terminator.html", report::html_of("Shadow terminators", blocks, folder.path()));
   say("{}\n", (folder.path() / "terminator.md").string());

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "app/bench/gnuplot.h"
 #include "app/report/columns.h"
@@ -13,16 +14,25 @@ namespace trisect::bench {
 namespace {
 
 using report::Columns;
+using report::Value;
+
+// Nothing of nothing.
+Value percent(std::size_t part, std::size_t whole) {
+  return whole == 0 ? Value() : Value(100.0 * static_cast<double>(part) / static_cast<double>(whole));
+}
 
 // Of what is lit in truth.
-double dark_percent(const TerminatorRow& row) {
-  return row.lit == 0 ? 0.0 : 100.0 * static_cast<double>(row.dark) / static_cast<double>(row.lit);
+Value dark_percent(const TerminatorRow& row) {
+  return percent(row.dark, row.lit);
 }
 
 // Of what is in shadow in truth.
-double bright_percent(const TerminatorRow& row) {
-  const std::size_t shadow = row.pixels - row.lit;
-  return shadow == 0 ? 0.0 : 100.0 * static_cast<double>(row.bright) / static_cast<double>(shadow);
+Value bright_percent(const TerminatorRow& row) {
+  return percent(row.bright, row.pixels - row.lit);
+}
+
+Value error(const TerminatorRow& row) {
+  return row.pixels == 0 ? Value() : Value(row.rmse);
 }
 
 const Columns<TerminatorRow>& terminator_columns() {
@@ -36,7 +46,7 @@ const Columns<TerminatorRow>& terminator_columns() {
       {{"lit", "{}"}, "lit", {"lit", "{}"}, [](auto& r) { return r.lit; }},
       {{"dark", "{}"}, "wrongly_dark", {"wrongly dark", "{}"}, [](auto& r) { return r.dark; }},
       {{"bright", "{}"}, "wrongly_bright", {"wrongly bright", "{}"}, [](auto& r) { return r.bright; }},
-      {{"rmse", "{:.4e}"}, "brightness_rmse", {"RMSE", "{:.1e}"}, [](auto& r) { return r.rmse; }},
+      {{"rmse", "{:.4e}"}, "brightness_rmse", {"RMSE", "{:.1e}"}, error},
       {{"ms_min", "{:.3f}"}, "ms.min", {}, [](auto& r) { return r.ms.min; }},
       {{"ms_median", "{:.3f}"}, "ms.median", {"ms", "{:.1f}"}, [](auto& r) { return r.ms.median; }},
       {{"ms_max", "{:.3f}"}, "ms.max", {}, [](auto& r) { return r.ms.max; }},
@@ -56,24 +66,49 @@ const Columns<TerminatorRow>& summary_columns() {
       {{}, "", {"% of lit", "{:.2f}"}, dark_percent},
       {{}, "", {"wrongly bright", "{}"}, [](auto& r) { return r.bright; }},
       {{}, "", {"% of shadow", "{:.2f}"}, bright_percent},
-      {{}, "", {"RMSE", "{:.1e}"}, [](auto& r) { return r.rmse; }},
+      {{}, "", {"RMSE", "{:.1e}"}, error},
       {{}, "", {"ms", "{:.1f}"}, [](auto& r) { return r.ms.median; }},
   };
   // clang-format on
   return columns;
 }
 
-// The row of those that is the best by both kinds of wrong pixels; null if there is none.
-const TerminatorRow* best_of(const std::vector<const TerminatorRow*>& rows) {
-  const auto best = std::min_element(rows.begin(), rows.end(), [](const auto* a, const auto* b) {
-    return a->dark + a->bright < b->dark + b->bright;
-  });
-  return best == rows.end() ? nullptr : *best;
+std::size_t wrong(const TerminatorRow& row) {
+  return row.dark + row.bright;
+}
+
+// The ways about flat shadows that leave the fewest pixels wrong: those of a model from the third row
+// on but for no shadows.
+std::vector<const TerminatorRow*> best_of(std::span<const TerminatorRow> rows) {
+  std::vector<const TerminatorRow*> best;
+  for (const TerminatorRow& row : rows) {
+    if (row.shadows == kNoShadows) continue;
+    if (!best.empty() && wrong(row) < wrong(*best.front())) best.clear();
+    if (best.empty() || wrong(row) == wrong(*best.front())) best.push_back(&row);
+  }
+  return best;
 }
 
 std::string wrong_text(const TerminatorRow& row) {
-  return fmt::format("{} ({:.2g}%) wrongly dark and {} wrongly bright", row.dark, dark_percent(row),
-                     row.bright);
+  return fmt::format("{} ({:.2g}%) wrongly dark and {} wrongly bright", row.dark,
+                     dark_percent(row).get<double>(), row.bright);
+}
+
+// Of the rows of a model: the curved surface's, flat triangles', and what others do.
+std::string finding_of(std::span<const TerminatorRow> rows) {
+  const TerminatorRow& curved = rows[0];
+  const std::string begin = fmt::format("{}, {} triangles", curved.model, curved.triangles);
+  if (curved.lit == 0) return begin + ": nothing that is seen is lit.";
+  std::string text =
+      fmt::format("{}, of {} pixels that are lit: curved shadows leave {}; flat ones {}", begin,
+                  curved.lit, wrong_text(curved), wrong_text(rows[1]));
+  const std::vector<const TerminatorRow*> best = best_of(rows.subspan(2));
+  if (best.empty()) return text + ".";
+  std::vector<std::string> names;
+  names.reserve(best.size());
+  for (const TerminatorRow* row : best) names.push_back(row->shadows);
+  return fmt::format("{}; of what renderers do about it, the best ({}) leaves {}.", text,
+                     fmt::join(names, "; "), wrong_text(*best.front()));
 }
 
 }  // namespace
@@ -124,22 +159,12 @@ report::Table summary_table_of(const std::vector<TerminatorRow>& rows) {
 std::vector<std::string> findings_of(const std::vector<TerminatorRow>& rows) {
   const std::vector<TerminatorRow> sums = over_lights(rows);
   std::vector<std::string> findings;
-  // Rows of a model follow each other: the curved surface's, flat triangles', and what others do.
+  // Rows of a model follow each other.
   for (auto first = sums.begin(); first != sums.end();) {
-    const auto end = std::find_if(
-        first, sums.end(), [&](const TerminatorRow& row) { return row.model != first->model; });
-    std::vector<const TerminatorRow*> fixes;
-    for (auto row = first + 2; row < end; ++row) {
-      if (row->shadows != kNoShadows) fixes.push_back(&*row);
-    }
-    std::string text = fmt::format(
-        "{}, {} triangles, of {} pixels that are lit: curved shadows leave {}; flat ones {}",
-        first->model, first->triangles, first->lit, wrong_text(*first), wrong_text(*(first + 1)));
-    if (const TerminatorRow* best = best_of(fixes)) {
-      text += fmt::format("; of what renderers do about it, {} does best, with {}", best->shadows,
-                          wrong_text(*best));
-    }
-    findings.push_back(text + ".");
+    const auto end = std::find_if(first, sums.end(), [&](const TerminatorRow& row) {
+      return row.model != first->model;
+    });
+    findings.push_back(finding_of({first, end}));
     first = end;
   }
   return findings;
@@ -159,7 +184,8 @@ std::string terminator_plot(const std::vector<TerminatorRow>& rows, const std::s
     script += fmt::format("$way{} << EOD\n", k);
     for (const TerminatorRow& row : rows) {
       if (row.shadows != names[k]) continue;
-      script += fmt::format("{} {} {}\n", row.light, dark_percent(row), row.rmse);
+      if (row.lit == 0) continue;
+      script += fmt::format("{} {} {}\n", row.light, dark_percent(row).get<double>(), row.rmse);
     }
     script += "EOD\n";
   }

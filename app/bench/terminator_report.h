@@ -22,7 +22,7 @@ report::Table table_of(const std::vector<TerminatorRow>& rows);
 report::Table summary_table_of(const std::vector<TerminatorRow>& rows);
 
 // A sentence for every model: what part of what is lit the curved surface, flat triangles, and the
-// best of the ways about them leave in the dark.
+// best of the ways about them leave in the dark, or that nothing is lit.
 std::vector<std::string> findings_of(const std::vector<TerminatorRow>& rows);
 
 // A gnuplot script that draws the share of wrongly dark pixels and the error of brightness over the

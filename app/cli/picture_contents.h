@@ -16,7 +16,7 @@ class PictureContents {
   // Whether the frame must have AOVs.
   [[nodiscard]] bool needs_aovs() const { return needs_aovs_; }
 
-  // frame: of the picture's size.
+  // frame: of the picture's size. The result refers to it.
   [[nodiscard]] ImageContents of(const Frame& frame, const RenderOptions& options,
                                  const PictureSource& source) const;
 

@@ -153,7 +153,7 @@ void write_exr(const Frame& frame, const AtomicFile& file, const ImageContents& 
   Imf::addChromaticities(header, Imf::Chromaticities());
   for (const ImageAttribute& attribute : contents.attributes) insert(attribute, header);
   FrameRows rows(frame, contents, first);
-  const Imf::FrameBuffer channels = rows.band(0, 0);
+  const Imf::FrameBuffer channels = rows.band(0, 1);
   for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
     header.channels().insert(channel.name(), Imf::Channel(channel.slice().type));
   }

@@ -21,6 +21,17 @@ std::string unpadded(const std::string& format, const Value& value) {
   return formatted(value.dump());
 }
 
+// RFC 4180: what has a comma, a quotation mark or a line's end in it stands in quotation marks, and
+// those in it are doubled. Some columns have the marks in their format.
+std::string quoted_for_csv(const std::string& cell) {
+  const bool has_marks = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
+  const std::string text = has_marks ? cell.substr(1, cell.size() - 2) : cell;
+  if (!has_marks && text.find_first_of(",\"\r\n") == std::string::npos) return cell;
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' ? "\"\"" : std::string(1, c);
+  return result + "\"";
+}
+
 }  // namespace
 
 std::string cell_of(const CellFormat& format, const Value& value) {
@@ -40,7 +51,10 @@ void set_value(nlohmann::ordered_json& object, const std::string& path, const Va
 }
 
 std::string csv_line(const std::vector<std::string>& cells) {
-  return fmt::format("{}\n", fmt::join(cells, ","));
+  std::vector<std::string> quoted;
+  quoted.reserve(cells.size());
+  for (const std::string& cell : cells) quoted.push_back(quoted_for_csv(cell));
+  return fmt::format("{}\n", fmt::join(quoted, ","));
 }
 
 std::string text_line(const std::vector<std::string>& cells) {

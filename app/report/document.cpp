@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cstdint>
+#include <cstring>
 
 #include "app/base/read_file.h"
 
@@ -37,6 +39,17 @@ std::string escaped(const std::string& text) {
     }
   }
   return result;
+}
+
+// A file's name as a link has it: what could end the link is a percent sign and the byte's number.
+std::string link_to(const std::string& file) {
+  std::string link;
+  for (const char c : file) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_plain = std::isalnum(byte) != 0 || std::strchr("-_./", c) != nullptr;
+    link += is_plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
+  }
+  return link;
 }
 
 std::string markdown_of(const Table& table) {
@@ -78,7 +91,11 @@ std::string html_of(const Picture& picture, const std::filesystem::path& folder)
 
 std::string markdown_line(const std::vector<std::string>& cells) {
   std::string line = "|";
-  for (const std::string& cell : cells) line += " " + cell + " |";
+  for (const std::string& cell : cells) {
+    line += ' ';
+    for (const char c : cell) line += c == '|' ? "\\|" : std::string(1, c);
+    line += " |";
+  }
   return line + "\n";
 }
 
@@ -117,7 +134,8 @@ std::string markdown_of(const std::vector<Block>& blocks) {
                               },
                               [](const Table& table) { return markdown_of(table); },
                               [](const Picture& picture) {
-                                return fmt::format("![{}]({})\n", picture.text, picture.file);
+                                return fmt::format("![{}]({})\n", picture.text,
+                                                   link_to(picture.file));
                               }},
                    block);
   }

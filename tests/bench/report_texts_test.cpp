@@ -146,7 +146,7 @@ TEST(ParetoReport, SumsUpAllModelsWithASurfaceInTimesOfTheRobustSolver) {
   sphere.model = "sphere-20";
   sphere.surface = SURFACE_SPHERE;
   const std::string script = summary_script({pareto(), torus, sphere}, SURFACE_PHONG, "svg", "a");
-  EXPECT_NE(script.find("\"phong: teapot, torus\""), std::string::npos) << script;
+  EXPECT_NE(script.find("'phong: teapot, torus'"), std::string::npos) << script;
   // An empty line ends a scene's curve.
   const std::string robust_point = "2.3456e-07 1e-09 1 3\n";
   EXPECT_NE(script.find("$family0 << EOD\n" + robust_point + "\n" + robust_point + "\nEOD\n"),
@@ -286,8 +286,42 @@ TEST(TerminatorReport, SaysWhatPartIsInTheDark) {
             std::vector<std::string>{
                 "a-20, 20 triangles, of 100 pixels that are lit: curved shadows leave 0 (0%) "
                 "wrongly dark and 0 wrongly bright; flat ones 20 (20%) wrongly dark and 3 wrongly "
-                "bright; of what renderers do about it, Cycles does best, with 5 (5%) wrongly dark "
-                "and 6 wrongly bright."});
+                "bright; of what renderers do about it, the best (Cycles) leaves 5 (5%) wrongly "
+                "dark and 6 wrongly bright."});
+}
+
+TEST(TerminatorReport, NamesAllThatAreTheBest) {
+  std::vector<TerminatorRow> rows = terminator();
+  rows[3].shadows = rows[7].shadows = "other";
+  rows[7].dark = 5;
+  const std::string finding = findings_of(rows).front();
+  EXPECT_NE(finding.find("the best (Cycles; other) leaves 5 (5%)"), std::string::npos) << finding;
+}
+
+TEST(TerminatorReport, SaysThatNothingIsLit) {
+  std::vector<TerminatorRow> rows = terminator();
+  for (TerminatorRow& row : rows) row.lit = row.dark = 0;
+  EXPECT_EQ(findings_of(rows),
+            std::vector<std::string>{"a-20, 20 triangles: nothing that is seen is lit."});
+  rows.resize(1);
+  rows[0].pixels = 0;
+  EXPECT_EQ(
+      markdown(summary_table_of(rows)),
+      R"(| model | triangles | shadows | lit | wrongly dark | % of lit | wrongly bright | % of shadow | RMSE | ms |
+|---|---|---|---|---|---|---|---|---|---|
+| a-20 | 20 | curved | 0 | 0 |  | 0 |  |  | 4.0 |
+)");
+}
+
+// Names of files are a user's: gnuplot would run what stands between back-quotes.
+TEST(TerminatorReport, TakesAnyNameInAPlot) {
+  std::vector<TerminatorRow> rows = terminator();
+  for (TerminatorRow& row : rows) row.model = "it's_`touch x`\nsystem";
+  const std::string script = terminator_plot(rows, "svg", "a'.svg");
+  EXPECT_NE(script.find("set output 'a''.svg'\n"), std::string::npos) << script;
+  EXPECT_NE(script.find("title 'it''s_`touch x`?system, 20 triangles' noenhanced\n"),
+            std::string::npos)
+      << script;
 }
 
 TEST(TerminatorReport, AddsLightsUp) {

@@ -118,14 +118,28 @@ TEST_F(Reports, ReportsShadowTerminators) {
   const std::string model = test::asset_path("sphere-80");
   expect_complaint(test::run_trisect({"bench", "terminator", model, model, "-o", folder_ / "t"}), 2,
                    "two models are named sphere-80");
+  // A name that ends strings, links and cells, and that a shell would run.
+  const std::string name = "it's, a `touch made` (1)|";
+  const std::string path = folder_ / (name + ".obj");
+  std::filesystem::copy_file(model, path);
   const test::ProgramRun run =
-      test::run_trisect({"bench", "terminator", model, "--lights", "60,100", "--size", "64x48",
+      test::run_trisect({"bench", "terminator", path, "--lights", "100,60,100", "--size", "64x48",
                          "--runs", "1", "-o", folder_ / "t"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  for (const char* name : {"terminator.md", "terminator.html", "terminator.csv", "sphere-80.png",
-                           "sphere-80-errors.svg", "sphere-80-errors.png"}) {
-    EXPECT_GT(std::filesystem::file_size(folder_ / "t" / name), 500U) << name;
+  EXPECT_FALSE(std::filesystem::exists("made"));
+  for (const std::string& file :
+       {std::string("terminator.md"), std::string("terminator.html"),
+        std::string("terminator.csv"), name + "-lights.png", name + "-errors.svg",
+        name + "-errors.png"}) {
+    EXPECT_GT(std::filesystem::file_size(folder_ / "t" / file), 500U) << file;
   }
+  const std::string report = test::content_of(folder_ / "t" / "terminator.md");
+  EXPECT_NE(report.find("](it%27s%2C%20a%20%60touch%20made%60%20%281%29%7C-lights.png)"),
+            std::string::npos);
+  EXPECT_NE(report.find("| it's, a `touch made` (1)\\| | 60 | curved |"), std::string::npos);
+  EXPECT_NE(test::content_of(folder_ / "t" / "terminator.csv")
+                .find("\n\"it's, a `touch made` (1)|\",80,60,\"curved\","),
+            std::string::npos);
   std::ifstream file(folder_ / "t" / "terminator.json");
   const auto rows = nlohmann::json::parse(file)["rows"];
   ASSERT_EQ(rows.size(), 16U);

@@ -59,9 +59,8 @@ TEST(TerminatorFixes, RaiseATriangleInASphereOutOfIt) {
   }
 }
 
-// A mirrored triangle of a bowl is the same seen from within: all of it is below the tangent
-// planes.
-TEST(TerminatorFixes, LeaveABowlAsItIs) {
+// The same triangle with its normals turned, of a bowl, lies above all tangent planes.
+TEST(TerminatorFixes, OfHanikaLeaveABowlAsItIs) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 10000; ++i) {
     SmoothPoint point = in_sphere(random);

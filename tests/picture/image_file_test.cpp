@@ -140,8 +140,10 @@ TEST(WritePfm, WritesColoursOrOneOutput) {
 // A picture may be as large as the memory: what is written of it is made row by row.
 TEST(Memory, OfAPictureIsItsFrameWhenItIsWritten) {
   const test::TemporaryFolder folder;
+  const test::PeakMemory of_frame;
   Frame frame;
   frame.resize(1000, 4000, true);
+  EXPECT_GT(of_frame.bytes(), 60.0 * 1000 * 4000) << "the peak was not measured";
   ImageContents contents;
   contents.position = [](uint32_t x, uint32_t y) { return glm::vec3(x, y, 0.0F); };
   for (const char* name : {"a.png", "a.exr", "a.pfm"}) {

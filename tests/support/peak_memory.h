@@ -3,7 +3,6 @@
 
 #include <malloc.h>
 
-#include <cstddef>
 #include <fstream>
 #include <string>
 
@@ -21,20 +20,20 @@ class PeakMemory {
 
   // Bytes at the peak, less those at the beginning.
   [[nodiscard]] double bytes() const {
-    return 1024.0 * static_cast<double>(kilobytes("VmHWM:") - before_);
+    return 1024.0 * (kilobytes("VmHWM:") - before_);
   }
 
  private:
   // Of a line of /proc/self/status.
-  static std::size_t kilobytes(const std::string& key) {
+  static double kilobytes(const std::string& key) {
     std::ifstream file("/proc/self/status");
     for (std::string line; std::getline(file, line);) {
-      if (line.starts_with(key)) return std::stoul(line.substr(key.size() + 1));
+      if (line.starts_with(key)) return std::stod(line.substr(key.size() + 1));
     }
-    return 0;
+    return 0.0;
   }
 
-  std::size_t before_ = 0;
+  double before_ = 0.0;
 };
 
 }  // namespace trisect::test
