@@ -44,7 +44,8 @@ and 1e3, and those of the oracle at every pixel that it can decide.
 
 Flat triangles with smooth normals lie below the surface that they stand for and shade each other where the light comes in
 low. Pixels of 400x300 that are dark though light reaches the true surface there by a cosine of more than 0.02: of the sphere
-as it is; of the teapot as 4000 curved triangles have it.
+as it is; of the teapot as 4000 curved triangles have it. [terminator](terminator/terminator.md) has what renderers do about
+it, with the curved surface of the same triangles for the truth.
 
 | model | surface | dark though lit | pixels hit |
 |---|---|---|---|
