@@ -86,11 +86,10 @@ nlohmann::ordered_json json_of(const std::vector<Ablation>& ablations) {
 
 std::string plot_script(const Ablation& ablation, const std::string& terminal,
                         const std::string& file) {
-  std::string script =
-      page(terminal, file, "",
-           fmt::format("{}, {} patches, {}", ablation.model, ablation.patches,
-                       surface_name(ablation.surface))) +
-      "$steps << EOD\n";
+  std::string script = page(terminal, file, "",
+                            fmt::format("{}, {} patches, {}", ablation.model, ablation.patches,
+                                        surface_name(ablation.surface))) +
+                       "$steps << EOD\n";
   for (std::size_t i = 0; i < ablation.steps.size(); ++i) {
     const Step& step = ablation.steps[i];
     script +=

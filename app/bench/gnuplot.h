@@ -13,8 +13,8 @@ void expect_gnuplot();
 // Runs a script. Throws InputError if gnuplot fails.
 void run_gnuplot(const std::string& script);
 
-// A text as a string of a script, whatever is in it: gnuplot runs what stands between back-quotes in
-// strings of double quotes.
+// A text as a string of a script, whatever is in it: gnuplot runs what stands between back-quotes
+// in strings of double quotes.
 std::string gnuplot_text(const std::string& text);
 
 // Those of the names that differ, in the order in which they come first.

@@ -28,8 +28,8 @@ struct TerminatorRow {
   Spread ms;          // of a frame with shadows
 };
 
-// The way that is none: pixels whose normal faces the light are lit. What is wrongly dark there is so
-// because flat triangles are seen in other places, with other normals, than the curved surface.
+// The way that is none: pixels whose normal faces the light are lit. What is wrongly dark there is
+// so because flat triangles are seen in other places, with other normals, than the curved surface.
 inline constexpr const char* kNoShadows = "no shadows";
 
 struct Terminator {

@@ -27,9 +27,9 @@ glm::vec3 on_tangent_planes(const SmoothPoint& point);
 // Where Cycles begins it ("Geometry Offset" in the manual of Blender 2.90 and later), by the
 // smallest height along the interpolated normal at which the vertices' tangent planes lie, each
 // moved up to the highest of the vertices; by half of a paraboloid that follows the normals, if
-// that is more. All of it where the triangle turns away or light and normal make an angle near 90 degrees,
-// none where both the normal and the triangle face the light by a cosine of 0.1 and more. face: the triangle's normal,
-// on that side. light: of unit length.
+// that is more. All of it where the triangle turns away or light and normal make an angle near 90
+// degrees, none where both the normal and the triangle face the light by a cosine of 0.1 and more.
+// face: the triangle's normal, on that side. light: of unit length.
 glm::vec3 under_envelope(const SmoothPoint& point, const glm::vec3& face, const glm::vec3& light);
 
 // By which Chiang, Li and Burley dim the light ("Taming the shadow terminator", 2019): -G^3 + G^2 +

@@ -18,7 +18,8 @@ using report::Value;
 
 // Nothing of nothing.
 Value percent(std::size_t part, std::size_t whole) {
-  return whole == 0 ? Value() : Value(100.0 * static_cast<double>(part) / static_cast<double>(whole));
+  return whole == 0 ? Value()
+                    : Value(100.0 * static_cast<double>(part) / static_cast<double>(whole));
 }
 
 // Of what is lit in truth.
@@ -77,8 +78,8 @@ std::size_t wrong(const TerminatorRow& row) {
   return row.dark + row.bright;
 }
 
-// The ways about flat shadows that leave the fewest pixels wrong: those of a model from the third row
-// on but for no shadows.
+// The ways about flat shadows that leave the fewest pixels wrong: those of a model from the third
+// row on but for no shadows.
 std::vector<const TerminatorRow*> best_of(std::span<const TerminatorRow> rows) {
   std::vector<const TerminatorRow*> best;
   for (const TerminatorRow& row : rows) {
@@ -161,9 +162,8 @@ std::vector<std::string> findings_of(const std::vector<TerminatorRow>& rows) {
   std::vector<std::string> findings;
   // Rows of a model follow each other.
   for (auto first = sums.begin(); first != sums.end();) {
-    const auto end = std::find_if(first, sums.end(), [&](const TerminatorRow& row) {
-      return row.model != first->model;
-    });
+    const auto end = std::find_if(
+        first, sums.end(), [&](const TerminatorRow& row) { return row.model != first->model; });
     findings.push_back(finding_of({first, end}));
     first = end;
   }

@@ -46,7 +46,8 @@ struct Column {
 // nothing.
 void set_value(nlohmann::ordered_json& object, const std::string& path, const Value& value);
 
-// Cells as a line of CSV. Text that needs quotation marks gets them, if its column's format has none.
+// Cells as a line of CSV. Text that needs quotation marks gets them, if its column's format has
+// none.
 std::string csv_line(const std::vector<std::string>& cells);
 
 // Cells with a blank between them, and a newline.

@@ -119,25 +119,24 @@ std::string markdown_of(const std::vector<Block>& blocks) {
   std::string text;
   for (const Block& block : blocks) {
     if (!text.empty()) text += "\n";
-    text +=
-        std::visit(Overloaded{[](const Heading& heading) {
-                                return std::string(static_cast<std::size_t>(heading.level), '#') +
-                                       " " + heading.text + "\n";
-                              },
-                              [](const Paragraph& paragraph) { return paragraph.text + "\n"; },
-                              [](const Items& items) {
-                                std::string list;
-                                for (const std::string& item : items.texts) {
-                                  list += "- " + item + "\n";
-                                }
-                                return list;
-                              },
-                              [](const Table& table) { return markdown_of(table); },
-                              [](const Picture& picture) {
-                                return fmt::format("![{}]({})\n", picture.text,
-                                                   link_to(picture.file));
-                              }},
-                   block);
+    text += std::visit(
+        Overloaded{[](const Heading& heading) {
+                     return std::string(static_cast<std::size_t>(heading.level), '#') + " " +
+                            heading.text + "\n";
+                   },
+                   [](const Paragraph& paragraph) { return paragraph.text + "\n"; },
+                   [](const Items& items) {
+                     std::string list;
+                     for (const std::string& item : items.texts) {
+                       list += "- " + item + "\n";
+                     }
+                     return list;
+                   },
+                   [](const Table& table) { return markdown_of(table); },
+                   [](const Picture& picture) {
+                     return fmt::format("![{}]({})\n", picture.text, link_to(picture.file));
+                   }},
+        block);
   }
   return text;
 }

@@ -128,9 +128,8 @@ TEST_F(Reports, ReportsShadowTerminators) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_FALSE(std::filesystem::exists("made"));
   for (const std::string& file :
-       {std::string("terminator.md"), std::string("terminator.html"),
-        std::string("terminator.csv"), name + "-lights.png", name + "-errors.svg",
-        name + "-errors.png"}) {
+       {std::string("terminator.md"), std::string("terminator.html"), std::string("terminator.csv"),
+        name + "-lights.png", name + "-errors.svg", name + "-errors.png"}) {
     EXPECT_GT(std::filesystem::file_size(folder_ / "t" / file), 500U) << file;
   }
   const std::string report = test::content_of(folder_ / "t" / "terminator.md");

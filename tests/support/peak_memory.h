@@ -19,9 +19,7 @@ class PeakMemory {
   }
 
   // Bytes at the peak, less those at the beginning.
-  [[nodiscard]] double bytes() const {
-    return 1024.0 * (kilobytes("VmHWM:") - before_);
-  }
+  [[nodiscard]] double bytes() const { return 1024.0 * (kilobytes("VmHWM:") - before_); }
 
  private:
   // Of a line of /proc/self/status.
