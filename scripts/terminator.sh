@@ -17,6 +17,8 @@ fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 on newer build/release/trisect bench terminator "${models[@]}" "${more[@]}" -o "$work/report"
+# The page with all pictures in it repeats what is beside it.
+rm "$work/report/terminator.html"
 rm -rf "$to"
 mkdir -p "$(dirname "$to")"
 mv "$work/report" "$to"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 
 #include "app/bake/bake.h"
@@ -42,6 +43,9 @@ class Contender {
 // of the last. So a frame of a millisecond is not timed right after a pause of the device, or with
 // what the contender before left in its caches.
 Timing take_turn(Contender& contender, Frame& frame);
+
+// The same of any frames: render() draws one and gives its time.
+Timing take_turn(const std::function<Timing()>& render);
 
 // All contenders below keep references to the scene and the device, which must outlive them.
 

@@ -106,14 +106,7 @@ class OnEmbree : public Contender {
     for_each_pixel(x, y, [&](uint32_t px, uint32_t py, uint32_t) {
       const Kernel::PixelRay ray = kernel.pixel_ray({px, py});
       RTCRayHit one{};
-      one.ray.org_x = ray.near_point.x;
-      one.ray.org_y = ray.near_point.y;
-      one.ray.org_z = ray.near_point.z;
-      one.ray.dir_x = ray.view.x;
-      one.ray.dir_y = ray.view.y;
-      one.ray.dir_z = ray.view.z;
-      one.ray.tfar = std::numeric_limits<float>::infinity();
-      one.ray.mask = ~0U;
+      one.ray = embree_ray(ray.near_point, ray.view);
       one.hit.geomID = RTC_INVALID_GEOMETRY_ID;
       rtcIntersect1(triangles_.scene(), &context, &one);
       const bool met = one.hit.geomID != RTC_INVALID_GEOMETRY_ID;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "app/base/error.h"
 #include "app/base/threads.h"
@@ -42,6 +43,19 @@ EmbreeTriangles::EmbreeTriangles(const std::vector<glm::vec3>& vertices,
   rtcReleaseGeometry(geometry);
   rtcCommitScene(scene_.get());
   if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) throw OutOfMemory(kNoTriangles);
+}
+
+RTCRay embree_ray(const glm::vec3& origin, const glm::vec3& direction) {
+  RTCRay ray{};
+  ray.org_x = origin.x;
+  ray.org_y = origin.y;
+  ray.org_z = origin.z;
+  ray.dir_x = direction.x;
+  ray.dir_y = direction.y;
+  ray.dir_z = direction.z;
+  ray.tfar = std::numeric_limits<float>::infinity();
+  ray.mask = ~0U;
+  return ray;
 }
 
 }  // namespace trisect::bench

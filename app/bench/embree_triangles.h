@@ -40,4 +40,7 @@ class EmbreeTriangles {
   Held<RTCScene> scene_;
 };
 
+// From its origin on, without an end.
+RTCRay embree_ray(const glm::vec3& origin, const glm::vec3& direction);
+
 }  // namespace trisect::bench

@@ -5,20 +5,20 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
 
-#include "app/bake/subpatch_bounds.h"
 #include "app/base/parallel_rows.h"
 #include "app/base/stopwatch.h"
 #include "app/bench/contender.h"
 #include "app/bench/embree_triangles.h"
 #include "app/bench/model_steps.h"
 #include "app/bench/terminator_fixes.h"
+#include "app/bench/tessellation.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/progress_line.h"
+#include "app/dispatch/accel.h"
 #include "app/dispatch/kernel_float.h"
 #include "app/frame/draw_text.h"
 #include "app/mesh/obj_file.h"
@@ -66,6 +66,12 @@ struct Lit {
 
 using LitPixels = std::vector<Lit>;
 
+// Of a surface that is seen, whose normal has this cosine with the light.
+Lit lit_by(float cosine, bool in_shadow) {
+  const bool is_lit = cosine > 0.0F && !in_shadow;
+  return {true, is_lit, is_lit ? cosine : 0.0F};
+}
+
 // The direction toward a light: off the direction toward the eye by that angle, to the right and 30
 // degrees up.
 dvec3 light_at(double degrees, const Camera& camera) {
@@ -98,9 +104,7 @@ LitPixels truth(const Oracle& oracle, const OracleFrame& seen, const BakedScene&
                   to_double(scene.triangles[answer.root.triangle]), answer.root.weights)),
               view);
           const double cosine = glm::dot(normal, glm::normalize(dvec3(params.light)));
-          pixels[i].is_seen = shadow.decidable;
-          pixels[i].is_lit = !shadow.hit && cosine > 0.0;
-          pixels[i].brightness = pixels[i].is_lit ? static_cast<float>(cosine) : 0.0F;
+          if (shadow.decidable) pixels[i] = lit_by(static_cast<float>(cosine), shadow.hit);
         }
       },
       [&](uint32_t rows) { return line.show(rows); });
@@ -155,9 +159,7 @@ class CurvedShadows {
         return glm::length(vec3(dark.colors[i]) - vec3(color));
       };
       const bool is_dark = off(kernel_.shadow_color(hit, view)) < off(open.colors[i]);
-      pixels[i].is_seen = true;
-      pixels[i].is_lit = cosine > 0.0F && !is_dark;
-      pixels[i].brightness = pixels[i].is_lit ? cosine : 0.0F;
+      pixels[i] = lit_by(cosine, is_dark);
     }
     return pixels;
   }
@@ -204,27 +206,8 @@ class FlatModel {
 
  private:
   static EmbreeTriangles embree(const BakedScene& scene) {
-    std::vector<vec3> vertices;
-    std::vector<glm::uvec3> triangles;
-    for (const Triangle& tri : scene.triangles) {
-      const auto first = static_cast<uint32_t>(vertices.size());
-      triangles.emplace_back(first, first + 1, first + 2);
-      for (const vec4& position : tri.Position) vertices.emplace_back(position);
-    }
-    return {vertices, triangles};
-  }
-
-  static RTCRay embree_ray(const vec3& origin, const vec3& direction) {
-    RTCRay ray{};
-    ray.org_x = origin.x;
-    ray.org_y = origin.y;
-    ray.org_z = origin.z;
-    ray.dir_x = direction.x;
-    ray.dir_y = direction.y;
-    ray.dir_z = direction.z;
-    ray.tfar = std::numeric_limits<float>::infinity();
-    ray.mask = ~0U;
-    return ray;
+    const Tessellation flat = tessellate(scene, 1);
+    return {flat.vertices, flat.triangles};
   }
 
   Lit lit(const FlatShadows& way, const Kernel::PixelRay& ray, const vec3& light) const {
@@ -234,9 +217,7 @@ class FlatModel {
     seen.ray = embree_ray(ray.near_point, ray.view);
     seen.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(triangles_.scene(), &context, &seen);
-    Lit result;
-    if (seen.hit.geomID == RTC_INVALID_GEOMETRY_ID) return result;
-    result.is_seen = true;
+    if (seen.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
 
     const Triangle& tri = scene_.triangles[seen.hit.primID];
     const vec3 face = in_float::facing(vec3(tri.TriNormal), ray.view);
@@ -247,16 +228,14 @@ class FlatModel {
         vec3(1.0F - seen.hit.u - seen.hit.v, seen.hit.u, seen.hit.v)};
     const vec3 normal = point.normal();
     const float cosine = glm::dot(normal, light);
-    if (!(cosine > 0.0F)) return result;
     const float dimmed = way.fix == Fix::softening ? softening(face, normal, light) : 1.0F;
-    if (dimmed == 0.0F) return result;
+    // Without a ray where no light falls anyway.
+    if (!(dimmed * cosine > 0.0F)) return lit_by(0.0F, true);
     RTCRay shadow =
         embree_ray(begin(way, point, face, light) + kOffTriangle * radius_ * face, light);
     if (way.fix != Fix::no_shadows) rtcOccluded1(triangles_.scene(), &context, &shadow);
     // Embree marks a ray that is occluded by a negative end.
-    result.is_lit = shadow.tfar >= 0.0F;
-    result.brightness = result.is_lit ? dimmed * cosine : 0.0F;
-    return result;
+    return lit_by(dimmed * cosine, shadow.tfar < 0.0F);
   }
 
   [[nodiscard]] vec3 begin(const FlatShadows& way, const SmoothPoint& point, const vec3& face,
@@ -333,21 +312,10 @@ class Sheet {
   Frame frame_;
 };
 
-// Milliseconds of the last of so many frames that 20 ms have passed, as take_turn().
-template <typename FrameMs>
-double turn(FrameMs&& frame_ms) {
-  const Stopwatch watch;
-  double last = 0.0;
-  do {
-    last = frame_ms();
-  } while (watch.milliseconds() < 20.0);
-  return last;
-}
-
 // A way with its times.
 struct Timed {
   TerminatorRow row;
-  std::function<double()> turn;
+  std::function<Timing()> turn;
   std::vector<double> times;
 };
 
@@ -384,14 +352,14 @@ void measure_model(const gpu::Device& device, const std::string& file,
     };
     CurvedShadows curved(kernels, scene, params);
     Frame frame;
-    add("curved", curved.cast(), [&] { return take_turn(curved.shadowed(), frame).ms; });
+    add("curved", curved.cast(), [&] { return take_turn(curved.shadowed(), frame); });
     for (const FlatShadows& way : ways()) {
       const bool is_plain = &way == &ways().front();
       add(way.name, is_plain ? plain : flat.cast(way, params), [&flat, &params, &way = way] {
-        return turn([&] {
+        return take_turn([&]() -> Timing {
           const Stopwatch watch;
           flat.cast(way, params);
-          return watch.milliseconds();
+          return {.ms = watch.milliseconds()};
         });
       });
     }
@@ -399,7 +367,7 @@ void measure_model(const gpu::Device& device, const std::string& file,
     for (Timed& one : timed) one.turn();
     for (uint32_t run = 0; run < options.runs; ++run) {
       for (Timed& one : timed) {
-        one.times.push_back(one.turn());
+        one.times.push_back(one.turn().ms);
         stop_if_interrupted();
       }
       line.show(run + 1);

@@ -35,13 +35,11 @@ std::vector<Block> report_of(const std::vector<bench::TerminatorRow>& rows,
       report::Paragraph{
           "Where a coarse model with smooth normals turns from the light, the shadows of its flat "
           "triangles fall in steps. The curved surface has hardly any of its own, where its "
-          "patches "
-          "meet (docs/shadows.md measures them). The truth here is the curved surface, by an "
-          "independent search in double precision: that curved shadows leave nothing wrong says "
+          "patches meet (docs/shadows.md measures them). The truth here is the curved surface, by "
+          "an independent search in double precision: that curved shadows leave nothing wrong says "
           "that the program draws its surface right. Pixels whose answer the roundings of single "
           "precision decide, or at which only the flat or only the curved surface is seen, are "
-          "left "
-          "out."},
+          "left out."},
       report::Items{bench::findings_of(rows)}};
   for (const std::string& model : models) {
     blocks.emplace_back(report::Heading{2, model});
@@ -59,12 +57,11 @@ std::vector<Block> report_of(const std::vector<bench::TerminatorRow>& rows,
            "Gems II, chapter 4). Cycles: the geometry offset of Blender 2.90 and later, with its "
            "threshold of 0.1. Chiang 2019: on the triangle, and what is lit beside is dimmed to "
            "soften the edge (Chiang, Li and Burley, Taming the shadow terminator). no shadows: "
-           "what "
-           "faces the light is lit; what is wrongly dark there is so because flat triangles are "
-           "seen in other places, with other normals, than the surface. wrongly dark: lit in "
-           "truth. "
-           "wrongly bright: in shadow in truth. RMSE: of the brightness, the cosine between light "
-           "and interpolated normal. ms: of a frame with its shadows; of curved ones by the clock "
+           "what faces the light is lit; what is wrongly dark there is so because flat triangles "
+           "are seen in other places, with other normals, than the surface. wrongly dark: lit in "
+           "truth. wrongly bright: in shadow in truth. RMSE: of the brightness, the cosine between "
+           "light and interpolated normal. ms: of a frame with its shadows; of curved ones by the "
+           "clock "
            "of the device above, of flat ones, which are traced ray by ray with Embree, by the "
            "host's."},
        bench::summary_table_of(bench::over_lights(rows)), report::Heading{2, "Each light"},

@@ -116,14 +116,12 @@ std::string finding_of(std::span<const TerminatorRow> rows) {
 
 std::vector<TerminatorRow> over_lights(const std::vector<TerminatorRow>& rows) {
   std::vector<TerminatorRow> sums;
-  std::vector<std::size_t> lights;
   for (const TerminatorRow& row : rows) {
     const auto same = std::find_if(sums.begin(), sums.end(), [&](const TerminatorRow& sum) {
       return sum.model == row.model && sum.shadows == row.shadows;
     });
     if (same == sums.end()) {
       sums.push_back(row);
-      lights.push_back(1);
       continue;
     }
     const double squares = same->rmse * same->rmse * static_cast<double>(same->pixels) +
@@ -133,10 +131,11 @@ std::vector<TerminatorRow> over_lights(const std::vector<TerminatorRow>& rows) {
     same->dark += row.dark;
     same->bright += row.bright;
     same->rmse = same->pixels == 0 ? 0.0 : std::sqrt(squares / static_cast<double>(same->pixels));
-    const auto k = static_cast<std::size_t>(same - sums.begin());
-    const auto before = static_cast<double>(lights[k]);
-    same->ms.median = (same->ms.median * before + row.ms.median) / (before + 1.0);
-    ++lights[k];
+    same->ms.median += row.ms.median;
+  }
+  // Each has a row for every light.
+  for (TerminatorRow& sum : sums) {
+    sum.ms.median *= static_cast<double>(sums.size()) / static_cast<double>(rows.size());
   }
   return sums;
 }
