@@ -19,7 +19,7 @@ row() {
   read -r kilobytes seconds <"$work/time"
   case $code in
     0)
-      result=$(cat "$work"/a.* 2>/dev/null | wc -c)
+      result=$({ cat "$work"/a.* 2>/dev/null || true; } | wc -c)
       if [ "$result" = 0 ]; then result="read"; else result="written, $(jq -n "$result / 1e6 | . * 10 | round / 10") MB"; fi
       ;;
     2 | 4 | 6) # more pixels than there may be, more than the device can hold, or out of memory
@@ -82,7 +82,7 @@ END
   rm "$work/sphere-5242880.obj"
   for shape in identical slivers; do
     triangles $shape >"$work/$shape.ply"
-    row "a million $shape triangles, facts" info "$work/$shape.ply"
+    row "a million ${shape/identical/identical triangles}, facts" info "$work/$shape.ply"
     row "the same, phong, 16x12" render "$work/$shape.ply" --size 16x12 -o "$work/a.png"
     row "the same, flat with shadows, 16x12" render "$work/$shape.ply" --size 16x12 --surface flat --shadows -o "$work/a.png"
     rm "$work/$shape.ply"
