@@ -24,6 +24,10 @@ int hardcases(const HardcasesOptions& options);
 int crosscheck(const CrosscheckOptions& options);
 Tolerance tolerance_between(Backend a, Backend b, GlPath gl_path);
 
+// Renders, proves what each pixel's ray hits, and holds the two against each other. Returns
+// exit_different if an answer is proven wrong.
+int certify(const CertifyOptions& options);
+
 // Compares two image files. Returns exit_different if they are farther apart than the tolerance.
 int compare_images(const CompareOptions& options);
 

@@ -153,6 +153,12 @@ struct CrosscheckOptions {
   std::string diff;
 };
 
+struct CertifyOptions {
+  RenderOptions render;  // output, runs and stats are not used, nor what changes colours alone
+  std::string picture;
+  std::string json;
+};
+
 struct CompareOptions {
   std::string a;
   std::string b;

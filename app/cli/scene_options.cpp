@@ -28,34 +28,43 @@ std::optional<Accel> accel_of(const std::string& name) {
   return std::nullopt;
 }
 
-}  // namespace
-
-uint shading_of(const std::string& name) {
-  for (uint shading = SHADING_PLAIN; shading < SHADING_DEPTH; ++shading) {
-    if (name == shading_name(shading)) return shading;
-  }
-  return SHADING_DEPTH;
-}
-
-void add_scene(CLI::App& command, RenderOptions& options, SceneText& text) {
-  // As for the options of add_view, the last one counts.
-  command.add_option("MODEL", options.model, "OBJ, glTF, PLY, STL or FBX file")
-      ->group(option_group::kModel)
-      ->required()
-      ->take_last()
-      ->check(not_empty())
-      ->check(suggest_models());
-  add_view(command, options, text);
-  add_gl_path(command, text.gl_path);
-  add_device(command, options.device);
+// The options of add_view that change colours alone.
+void add_look(CLI::App& command, RenderOptions& options, SceneText& text) {
   command
-      .add_flag_callback("-v,--verbose", be_verbose,
-                         "Say more on standard error: what each step took, why which acceleration, "
-                         "what the device has")
-      ->group(option_group::kOutput);
+      .add_option("--light", text.light,
+                  "Direction toward the light, of any length, default 0.35,0.8,0.5")
+      ->group(option_group::kPicture)
+      ->type_name("X,Y,Z");
+  command
+      .add_flag("--shadows", options.shadows,
+                "Cast a ray from what is seen toward the light: the curved triangles shade "
+                "each other and themselves (robust)")
+      ->group(option_group::kPicture);
+  command
+      .add_option("--shading", text.shading,
+                  "What colour the surface has: plain (lit), grid (lit, with the thesis's grid), "
+                  "normal, patch or depth, default plain")
+      ->group(option_group::kPicture)
+      ->check(one_of({"plain", "grid", "normal", "patch", "depth"}))
+      ->type_name("NAME");
+  command
+      .add_option(
+          "--background", text.background,
+          "What is behind the surface: sky, transparent or a colour as R,G,B from 0 to 1, default "
+          "sky behind plain and grid, else 0,0,0")
+      ->group(option_group::kPicture)
+      ->check(suggest_names({"sky", "transparent"}))
+      ->type_name("WHAT");
+  command
+      .add_option("--color", text.color,
+                  "Colour of a plain surface or one with a grid, from 0 to 1, default those of the "
+                  "file, or 0.62,0.72,0.82, with a grid 1,1,1")
+      ->group(option_group::kPicture)
+      ->type_name("R,G,B");
 }
 
-void add_view(CLI::App& command, RenderOptions& options, SceneText& text) {
+// The others: what rays there are, what they meet, and how that is found.
+void add_tracing(CLI::App& command, RenderOptions& options, SceneText& text) {
   // The last of a repeated option counts.
   command.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   add_size(command, text.size, "800x600");
@@ -112,42 +121,48 @@ void add_view(CLI::App& command, RenderOptions& options, SceneText& text) {
       ->group(option_group::kCamera)
       ->type_name("X,Y,Z");
   command
-      .add_option("--light", text.light,
-                  "Direction toward the light, of any length, default 0.35,0.8,0.5")
-      ->group(option_group::kPicture)
-      ->type_name("X,Y,Z");
-  command
-      .add_flag("--shadows", options.shadows,
-                "Cast a ray from what is seen toward the light: the curved triangles shade "
-                "each other and themselves (robust)")
-      ->group(option_group::kPicture);
-  command
-      .add_option("--shading", text.shading,
-                  "What colour the surface has: plain (lit), grid (lit, with the thesis's grid), "
-                  "normal, patch or depth, default plain")
-      ->group(option_group::kPicture)
-      ->check(one_of({"plain", "grid", "normal", "patch", "depth"}))
-      ->type_name("NAME");
-  command
-      .add_option(
-          "--background", text.background,
-          "What is behind the surface: sky, transparent or a colour as R,G,B from 0 to 1, default "
-          "sky behind plain and grid, else 0,0,0")
-      ->group(option_group::kPicture)
-      ->check(suggest_names({"sky", "transparent"}))
-      ->type_name("WHAT");
-  command
-      .add_option("--color", text.color,
-                  "Colour of a plain surface or one with a grid, from 0 to 1, default those of the "
-                  "file, or 0.62,0.72,0.82, with a grid 1,1,1")
-      ->group(option_group::kPicture)
-      ->type_name("R,G,B");
-  command
       .add_option("--fov", options.fov, "Vertical field of view in degrees, 1 to 170, default 45")
       ->group(option_group::kCamera)
       ->check(number_from_to(1.0, 170.0))
       ->type_name("DEG");
   add_mesh_options(command, options.mesh);
+}
+
+}  // namespace
+
+uint shading_of(const std::string& name) {
+  for (uint shading = SHADING_PLAIN; shading < SHADING_DEPTH; ++shading) {
+    if (name == shading_name(shading)) return shading;
+  }
+  return SHADING_DEPTH;
+}
+
+void add_scene(CLI::App& command, RenderOptions& options, SceneText& text) {
+  add_traced_scene(command, options, text);
+  add_look(command, options, text);
+}
+
+void add_traced_scene(CLI::App& command, RenderOptions& options, SceneText& text) {
+  // As for the options of add_view, the last one counts.
+  command.add_option("MODEL", options.model, "OBJ, glTF, PLY, STL or FBX file")
+      ->group(option_group::kModel)
+      ->required()
+      ->take_last()
+      ->check(not_empty())
+      ->check(suggest_models());
+  add_tracing(command, options, text);
+  add_gl_path(command, text.gl_path);
+  add_device(command, options.device);
+  command
+      .add_flag_callback("-v,--verbose", be_verbose,
+                         "Say more on standard error: what each step took, why which acceleration, "
+                         "what the device has")
+      ->group(option_group::kOutput);
+}
+
+void add_view(CLI::App& command, RenderOptions& options, SceneText& text) {
+  add_tracing(command, options, text);
+  add_look(command, options, text);
 }
 
 void add_mesh_options(CLI::App& command, MeshOptions& mesh) {

@@ -35,6 +35,9 @@ uint shading_of(const std::string& name);
 // `text` must outlive the parse; `options` holds the defaults.
 void add_scene(CLI::App& command, RenderOptions& options, SceneText& text);
 
+// The same without the options that change colours alone.
+void add_traced_scene(CLI::App& command, RenderOptions& options, SceneText& text);
+
 // Adds the options that say how a model is rendered. The last of a repeated option counts, also for
 // options that the command gets later.
 void add_view(CLI::App& command, RenderOptions& options, SceneText& text);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/stress/stress_scenes.h"
+#include "app/surface/patch_range.h"
 
 namespace trisect {
 namespace {

@@ -197,6 +197,40 @@ Command add_crosscheck(CLI::App& app) {
           }};
 }
 
+Command add_certify(CLI::App& app) {
+  struct Values {
+    CertifyOptions options;
+    SceneText scene;
+  };
+  const auto [command, values] = add_command<Values>(
+      app, "certify", "Render a model and prove of each pixel what its ray hits");
+  CertifyOptions& options = values->options;
+  add_traced_scene(command, options.render, values->scene);
+  command
+      .add_option_function<std::string>(
+          "--backend",
+          [values = values](const std::string& name) {
+            values->options.render.backend = backend_named("--backend", name);
+          },
+          "Whose answers are held against the proofs: vulkan, opengl, cpu or oracle, default "
+          "vulkan")
+      ->group(option_group::kTracing)
+      ->check(one_of({"vulkan", "opengl", "cpu", "oracle"}))
+      ->type_name("NAME");
+  command
+      .add_option("-o,--output", options.picture,
+                  "Write the reason of each pixel as a picture, .png or .exr")
+      ->group(option_group::kOutput)
+      ->check(not_empty())
+      ->check(suggest_images())
+      ->type_name("FILE");
+  add_json(command, options.json, "Write the figures as JSON");
+  return {&command, [values = values] {
+            parse_scene(values->scene, values->options.render);
+            return certify(values->options);
+          }};
+}
+
 Command add_compare(CLI::App& app) {
   struct Values {
     CompareOptions options;
@@ -416,13 +450,21 @@ CommandLine::CommandLine()
   // Commands inherit both. They are in the order in which help lists them.
   app_.formatter(std::make_shared<HelpFormat>());
   app_.set_help_flag("-h,--help", "Print this help and exit")->group(option_group::kHelp);
-  commands_ = {add_render(app_),   add_other<view::CommandLine>(app_, "view"),
-               add_stitch(app_),   add_info(app_),
-               add_export(app_),   add_devices(app_),
-               add_compare(app_),  add_crosscheck(app_),
-               add_accuracy(app_), add_hardcases(app_),
-               add_rays(app_),     add_cast(app_),
-               add_judge(app_),    add_other<bench::CommandLine>(app_, "bench")};
+  commands_ = {add_render(app_),
+               add_other<view::CommandLine>(app_, "view"),
+               add_stitch(app_),
+               add_info(app_),
+               add_export(app_),
+               add_devices(app_),
+               add_compare(app_),
+               add_crosscheck(app_),
+               add_accuracy(app_),
+               add_certify(app_),
+               add_hardcases(app_),
+               add_rays(app_),
+               add_cast(app_),
+               add_judge(app_),
+               add_other<bench::CommandLine>(app_, "bench")};
   for (CLI::App* command : app_.get_subcommands({})) {
     if (command->get_name() != "view") add_quiet(*command);
   }

@@ -93,6 +93,16 @@ const std::map<std::string, CommandTexts>& texts() {
         {{"A model in a small image", "trisect accuracy sphere-20.obj --size 160x120"},
          {"One surface of two models, as JSON",
           "trisect accuracy teapot.obj torus.obj --surface sphere --json accuracy.json"}}}},
+      {"trisect certify",
+       {{"A proof holds for every ray within a rounding of single precision of the pixel's, in "
+         "interval arithmetic: hulls that are off the ray prove a miss, a contraction a single "
+         "root. What is not proven is open, and told why. The exit code is 1 if an answer is "
+         "proven wrong."},
+        {{"With a picture of the reasons", "trisect certify teapot.obj -o reasons.png"},
+         {"What bisection gets wrong",
+          "trisect certify torus.obj --solver bisect --shell height --size 160x120"},
+         {"On the CPU, as JSON",
+          "trisect certify sphere-20.obj --backend cpu --size 160x120 --json proofs.json"}}}},
       {"trisect hardcases",
        {{"Rays and patches on which solvers fail: silhouettes, grazing rays, needles, double "
          "roots. The exit code is 1 if the robust solver breaks its promise in one of them."},

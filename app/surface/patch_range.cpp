@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/base/rounding.h"
+#include "app/surface/bernstein.h"
 #include "app/surface/control_net.h"
 #include "app/surface/sphere_range.h"
 #include "app/surface/to_double.h"
@@ -19,43 +20,6 @@ using glm::dvec3;
 // the magnitude that this is multiplied with. The rest is for points of the surface evaluated in
 // double precision, whose roundings grow where sigma is steep.
 constexpr double kRounding = gamma_double(900);
-
-// Bernstein coefficients of a quadratic over a sub-triangle: at the corners, then at the edges
-// 01 12 20.
-template <typename Value>
-using Quadratic = std::array<Value, 6>;
-
-constexpr std::size_t kEdgeOfCorners[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
-
-// sum_{i<j} w_i w_j q_ij, q in the order 01 12 20, over a sub-triangle: its blossom at pairs of
-// corners.
-template <typename Value>
-Quadratic<Value> quadratic_over(const CornerWeights& w, const std::array<Value, 3>& q) {
-  const auto blossom = [&](const dvec3& a, const dvec3& b) {
-    return (q[0] * (a.x * b.y + a.y * b.x) + q[1] * (a.y * b.z + a.z * b.y) +
-            q[2] * (a.x * b.z + a.z * b.x)) *
-           0.5;
-  };
-  return {blossom(w[0], w[0]), blossom(w[1], w[1]), blossom(w[2], w[2]),
-          blossom(w[0], w[1]), blossom(w[1], w[2]), blossom(w[2], w[0])};
-}
-
-// The ten Bernstein coefficients of a quadratic times a linear function.
-template <typename Value, typename Linear, typename Product>
-auto cubic_of(const Quadratic<Value>& q, const std::array<Linear, 3>& l, const Product& times) {
-  using Result = decltype(times(q[0], l[0]));
-  std::array<Result, 10> coefficients{};
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    coefficients[next++] = times(q[i], l[i]);
-    for (const std::size_t j : {(i + 1) % 3, (i + 2) % 3}) {
-      coefficients[next++] =
-          (times(q[i], l[j]) + times(q[kEdgeOfCorners[i][j]], l[i]) * 2.0) * (1.0 / 3.0);
-    }
-  }
-  coefficients[next] = (times(q[3], l[2]) + times(q[4], l[0]) + times(q[5], l[1])) * (1.0 / 3.0);
-  return coefficients;
-}
 
 // The flat sub-triangle with a ball of `radius` about each of its points.
 Enclosure around_base(const PatchCorners& corners, double radius) {
@@ -76,21 +40,10 @@ Enclosure enclose_cubic(const Patch& patch, const in_double::SubTriangle& sub_tr
   return e;
 }
 
-// K of phong, quadratic: sum_{i<j} w_i w_j V_ij, V_ij = (E_ij.N_j) N_j - (E_ij.N_i) N_i.
-Quadratic<dvec3> phong_offset_over(const Patch& patch, const CornerWeights& weights) {
-  std::array<dvec3, 3> V{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    const dvec3 edge = patch.P[j] - patch.P[i];
-    V[i] = patch.N[j] * glm::dot(edge, patch.N[j]) - patch.N[i] * glm::dot(edge, patch.N[i]);
-  }
-  return quadratic_over(weights, V);
-}
-
 Enclosure enclose_quotient(const Patch& patch, const CornerWeights& weights,
                            const PatchCorners& corners, double alpha) {
   const auto& [T, D] = corners;
-  const Quadratic<dvec3> K = phong_offset_over(patch, weights);
+  const Quadratic<dvec3> K = quadratic_over(weights, phong_offset_products(patch));
   double farthest = 0.0;
   for (const dvec3& k : K) farthest = std::max(farthest, std::abs(alpha) * glm::length(k));
   const Enclosure wide =
@@ -157,6 +110,16 @@ Enclosure enclose_surface(const SurfaceChoice& choice, const Patch& patch,
 }
 
 }  // namespace
+
+std::array<dvec3, 3> phong_offset_products(const Patch& patch) {
+  std::array<dvec3, 3> V{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const dvec3 edge = patch.P[j] - patch.P[i];
+    V[i] = patch.N[j] * glm::dot(edge, patch.N[j]) - patch.N[i] * glm::dot(edge, patch.N[i]);
+  }
+  return V;
+}
 
 Patch patch_of(uint shell, const Triangle& tri) {
   Patch patch{};

@@ -212,6 +212,26 @@ std::optional<std::array<Interval, 3>> second_derivative_ranges(
   return second;
 }
 
+SigmaRanges nothing_added() {
+  return {0.0, 0.0, 0.0};
+}
+
+// Adds w_i s_i, and what it changes by.
+void add_height(const Patch& patch, std::size_t i, const HeightRange& h,
+                const SphereOverSubTriangle& over, SigmaRanges& sigma) {
+  const auto& P = patch.P;
+  const auto& D = patch.D;
+  in_double::SphereRange sum{sigma.s, sigma.u, sigma.v};
+  in_double::add_height(sum, static_cast<int>(i), h, over.w[i], P[1] - P[0], P[2] - P[0],
+                        D[1] - D[0], D[2] - D[0]);
+  sigma = {sum.s, sum.u, sum.v};
+}
+
+// Far below what stands for infinity, far above any derivative of a scene. A NaN is not bounded.
+bool is_bounded(const Interval& a) {
+  return a.lo > -1e-3 * in_double::UNBOUNDED && a.hi < 1e-3 * in_double::UNBOUNDED;
+}
+
 std::array<HeightRange, 3> height_ranges(const Patch& patch, const SphereOverSubTriangle& over) {
   return {height_range(patch, 0, over), height_range(patch, 1, over), height_range(patch, 2, over)};
 }
@@ -248,16 +268,27 @@ std::optional<SigmaRanges> sphere_derivative_ranges(const Patch& patch,
                                                     const PatchCorners& corners) {
   const SphereOverSubTriangle over = sphere_over(patch, weights, corners);
   if (!has_directions(over)) return std::nullopt;
-  const auto& P = patch.P;
-  const auto& D = patch.D;
-  in_double::SphereRange sigma{0.0, 0.0, 0.0};
+  SigmaRanges sigma = nothing_added();
   for (std::size_t i = 0; i < 3; ++i) {
     const HeightRange h = height_range(patch, i, over);
     if (!is_root_with_derivatives(patch, i, h)) return std::nullopt;
-    in_double::add_height(sigma, static_cast<int>(i), h, over.w[i], P[1] - P[0], P[2] - P[0],
-                          D[1] - D[0], D[2] - D[0]);
+    add_height(patch, i, h, over, sigma);
   }
-  return SigmaRanges{sigma.s, sigma.u, sigma.v};
+  return sigma;
+}
+
+std::optional<SigmaRanges> sphere_change_ranges(const Patch& patch, const CornerWeights& weights,
+                                                const PatchCorners& corners) {
+  const SphereOverSubTriangle over = sphere_over(patch, weights, corners);
+  if (!has_directions(over)) return std::nullopt;
+  SigmaRanges sigma = nothing_added();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const HeightRange h = height_range(patch, i, over);
+    if (!has_root(h)) return std::nullopt;
+    add_height(patch, i, h, over, sigma);
+  }
+  if (!is_bounded(sigma.s) || !is_bounded(sigma.u) || !is_bounded(sigma.v)) return std::nullopt;
+  return sigma;
 }
 
 std::optional<std::array<Interval, 3>> sphere_second_derivative_ranges(

@@ -39,6 +39,13 @@ std::optional<SigmaRanges> sphere_derivative_ranges(const Patch& patch,
                                                     const CornerWeights& weights,
                                                     const PatchCorners& corners);
 
+// The same for all of the patch that is continuous, with what sigma changes by: where it has no
+// derivative the ranges hold its generalised gradient (Clarke 1983), so that between two points of
+// the sub-triangle, some of which may lie beyond the triangle's border, sigma changes by numbers of
+// these times the changes of the weights (theorem 2.3.7). Nothing where they are not bounded.
+std::optional<SigmaRanges> sphere_change_ranges(const Patch& patch, const CornerWeights& weights,
+                                                const PatchCorners& corners);
+
 // Ranges of the second derivatives of sigma along the patch's edges 01, 12 and 20, each edge once
 // from end to end: along a direction of weights d (sum 0) it is - sum_{i<j} d_i d_j times that of
 // edge ij. Nothing where a height may be at its limit or its line may miss the sphere. For weights

@@ -12,7 +12,7 @@
 namespace trisect {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kInfiniteFloat = std::numeric_limits<float>::infinity();
 
 // A device that does as IEEE 754 says, unless a member is set.
 struct FakeDevice {

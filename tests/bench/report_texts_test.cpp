@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/base/error.h"
+#include "app/base/interval.h"
 #include "app/bench/ablation_report.h"
 #include "app/bench/pareto_report.h"
 #include "app/bench/shape_report.h"
@@ -23,7 +24,6 @@
 namespace trisect::bench {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // The same JSON with other white space: keys, their order and digits stay.

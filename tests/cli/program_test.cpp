@@ -487,6 +487,7 @@ TEST_F(Program, WritesNothingOverWhatItReads) {
            {"info", model, "--json", model},
            {"accuracy", model, "--json", model},
            {"crosscheck", model, "--json", model},
+           {"certify", model, "-o", folder_ / "b.png", "--json", folder_ / "b.png"},
            {"compare", picture, picture, "--diff", picture},
            {"bench", "speed", model, "--json", model}}) {
     const test::ProgramRun run = run_trisect(arguments);

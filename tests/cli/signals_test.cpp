@@ -110,6 +110,8 @@ TEST(Signals, EndEveryCommandInOrder) {
            {{"devices", "--json", "FOLDER/d.json"}, {"d.json"}},
            {{"crosscheck", cube, "--size", "32x24", "--json", "FOLDER/c.json"}, {"c.json"}},
            {{"accuracy", cube, "--size", "32x24", "--json", "FOLDER/a.json"}, {"a.json"}},
+           {{"certify", cube, "--size", "64x48", "-o", "FOLDER/y.png", "--json", "FOLDER/y.json"},
+            {"y.png", "y.json"}},
            {{"bench", "speed", cube, "--size", "64x48", "--runs", "1", "--surface", "phong",
              "--error", "1e-2", "--json", "FOLDER/b.json"},
             {"b.json"}},

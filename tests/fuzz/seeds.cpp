@@ -165,7 +165,8 @@ void add_texts(std::vector<Seed>& seeds) {
         "stitch\na.png\nb.png\n-o\nc.png\n-q", "compare\na.exr\nb.exr\n--threshold\ncolor_max=2",
         "crosscheck\na.obj\n--backends\nvulkan,cpu", "bench\npareto\na.obj\n--json\nb.json",
         "export\na.obj\n--error\n0.01\n-o\nb.glb", "accuracy\na.obj\n--size\n16x12",
-        "info\na.ply\n--weld\n1e-3", "devices\n--floats", "hardcases\n--backend\ncpu"}) {
+        "certify\na.obj\n-o\na.png\n--json\nb.json", "info\na.ply\n--weld\n1e-3",
+        "devices\n--floats", "hardcases\n--backend\ncpu"}) {
     add(0, words);
   }
   add(1,

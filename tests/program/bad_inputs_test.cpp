@@ -219,6 +219,7 @@ TEST(BadInputs, WhatCannotBePrintedIsCode3) {
         "export -o a.ply --subdivide 2 --json - " + model, "export -o a.ply --subdivide 2 " + model,
         fmt::format("compare {0} {0}", picture), fmt::format("compare --json - {0} {0}", picture),
         "crosscheck --backends cpu,oracle --size 8x8 " + model,
+        "certify --backend cpu --size 8x8 --json - " + model,
         "stitch -o a.png " + good.path("part.png").string()}) {
     for (const char* closed : {">/dev/full", ">&-"}) {
       const std::string line = fmt::format("cd {} && {} {} {} 2>err", folder.path().string(),

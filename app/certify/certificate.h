@@ -1,0 +1,58 @@
+// What is proven of the surface over a sub-triangle of a patch, for all rays of a tube.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "app/base/interval.h"
+#include "app/surface/surface_double.h"
+
+namespace trisect {
+
+// A ray and all that are parallel to it and begin beside its beginning, no farther away than
+// `radius` along either axis across. The directions are of unit length and at right angles.
+struct RayTube {
+  glm::dvec3 origin;
+  glm::dvec3 direction;
+  std::array<glm::dvec3, 2> across;
+  double t_min;   // where the rays begin
+  double radius;  // not negative
+};
+
+// F(w) = ((S(w) - origin).across[0], (S(w) - origin).across[1]) is where the surface lies across
+// the tube; t(w) = (S(w) - origin).direction, how far along.
+enum class CertificateKind {
+  // The extent of F along one axis is beyond the tube: no ray of it meets the sub-triangle.
+  hull,
+  // The sub-triangle lies before the rays' beginning: t < t_min - radius.
+  before,
+  // It lies behind what decides already: t > `t.lo` of this certificate.
+  behind,
+  // No ray meets the sub-triangle: Krawczyk's operator maps the enlarged one off it.
+  no_root,
+  // Every ray meets the enlarged sub-triangle once, within weight_radius of `weights` (of the
+  // weights
+  // 1 and 2 of the patch) and with a t of this certificate's.
+  one_root
+};
+
+struct Certificate {
+  CertificateKind kind;
+  uint32_t triangle;
+  in_double::SubTriangle piece;
+  // hull: the axis across, and whether the surface lies on its negative side.
+  int axis = 0;
+  bool negative = false;
+  // one_root
+  glm::dvec3 weights{0.0};
+  double weight_radius = 0.0;
+  // behind, one_root
+  Interval t;
+};
+
+// How far a piece reaches beyond the sub-triangle that it is searched for, on each side, as a part
+// of its size: a root on the border between two is well within the pieces of both.
+inline constexpr double kPieceMargin = 0.125;
+
+}  // namespace trisect

@@ -1,0 +1,373 @@
+#include "app/certify/patch_certifier.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/surface/to_double.h"
+
+namespace trisect {
+namespace {
+
+using glm::dvec2;
+using glm::dvec3;
+using in_double::SubTriangle;
+
+// At this depth, where edges have a 4096th of the patch's, a piece is not divided further.
+constexpr int kDeepest = 12;
+// Nor is one after so many of a patch: where the shell's direction vanishes, enclosures do not
+// shrink as pieces do.
+constexpr int kMostPieces = 4096;
+// Krawczyk's operator must contract by this at least: closer to 1 the radius around a root becomes
+// large for nothing.
+constexpr double kMostContraction = 0.9;
+// Weights within a piece are computed from those of the patch, with some roundings over the size of
+// the smallest piece.
+constexpr double kWithinSlack = 1e-11;
+// The least weight within a piece of the points of its core.
+constexpr double kCoreWeight = kPieceMargin / (1.0 + 3.0 * kPieceMargin);
+constexpr int kNewtonSteps = 12;
+
+double magnitude(const Interval& a) {
+  return std::max(std::abs(a.lo), std::abs(a.hi));
+}
+
+// Rounded up, of numbers that are not negative.
+double sum_above(double a, double b) {
+  return (Interval(a) + Interval(b)).hi;
+}
+double product_above(double a, double b) {
+  return (Interval(a) * Interval(b)).hi;
+}
+
+// Weights that are multiples of 2^-50 and add up to 1 exactly. None is larger than some.
+dvec3 exact_weights(const dvec3& w) {
+  constexpr double units = 1125899906842624.0;  // 2^50
+  const double v = std::nearbyint(w.y * units) / units;
+  const double z = std::nearbyint(w.z * units) / units;
+  return {1.0 - v - z, v, z};
+}
+
+// The derivatives of F by the weights 1 and 2 within a piece, and what Krawczyk's operator is made
+// of.
+struct Contraction {
+  glm::dmat2 inverse;                             // Y, near that of the Jacobian's middle
+  std::array<std::array<double, 2>, 2> distance;  // |1 - Y J| at most, rows and columns
+  double factor;                                  // the largest sum of a row
+};
+
+std::optional<Contraction> contraction_of(const TangentRanges& tangents) {
+  const auto middle = [](const Interval& a) { return 0.5 * a.lo + 0.5 * a.hi; };
+  const double a = middle(tangents.u[0]);
+  const double b = middle(tangents.v[0]);
+  const double c = middle(tangents.u[1]);
+  const double d = middle(tangents.v[1]);
+  const double determinant = a * d - b * c;
+  Contraction contraction{};
+  // Of columns, as GLSL has it.
+  contraction.inverse =
+      glm::dmat2(d / determinant, -c / determinant, -b / determinant, a / determinant);
+  double factor = 0.0;
+  for (int i = 0; i < 2; ++i) {
+    const Interval Y0(contraction.inverse[0][i]);
+    const Interval Y1(contraction.inverse[1][i]);
+    const Interval of_u = (i == 0 ? 1.0 : 0.0) - (Y0 * tangents.u[0] + Y1 * tangents.u[1]);
+    const Interval of_v = (i == 1 ? 1.0 : 0.0) - (Y0 * tangents.v[0] + Y1 * tangents.v[1]);
+    auto& row = contraction.distance[static_cast<std::size_t>(i)];
+    row = {magnitude(of_u), magnitude(of_v)};
+    const double sum = sum_above(row[0], row[1]);
+    if (!(sum <= kMostContraction)) return std::nullopt;
+    factor = std::max(factor, sum);
+  }
+  contraction.factor = factor;
+  return contraction;
+}
+
+// Y times an interval vector.
+std::array<Interval, 2> times(const glm::dmat2& inverse, const std::array<Interval, 2>& F) {
+  return {Interval(inverse[0][0]) * F[0] + Interval(inverse[1][0]) * F[1],
+          Interval(inverse[0][1]) * F[0] + Interval(inverse[1][1]) * F[1]};
+}
+
+// Whether a set of weights 1 and 2 within a piece, an interval each, is off the piece's core.
+bool is_off_core(const Interval& u, const Interval& v) {
+  const Interval first = 1.0 - u - v;
+  constexpr double border = kCoreWeight - kWithinSlack;
+  return u.hi < border || v.hi < border || first.hi < border;
+}
+
+Interval about(double middle, double radius) {
+  return Interval(middle) + Interval(-radius, radius);
+}
+
+}  // namespace
+
+// Where the surface over a piece lies across a tube, by the mean value theorem: its place at a
+// point and what the tangents add from there.
+class MeanValueForm {
+ public:
+  MeanValueForm(const SubTriangle& piece, const TangentRanges& tangents, const dvec3& center,
+                const std::array<Interval, 2>& at_center)
+      : piece_(piece), tangents_(tangents), center_(center), at_center_(at_center) {}
+
+  // Whether a part of the piece is off the tube along an axis, which `certificate` then says.
+  bool prove_off(const SubTriangle& part, double radius, Certificate& certificate) const {
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      // The bound is convex in the weights: its largest values are at corners.
+      double lo = kInfinity;
+      double hi = -kInfinity;
+      for (const dvec3& corner : corner_weights(part)) {
+        const dvec3 l = in_double::weights_in(piece_, corner);
+        const Interval change =
+            tangents_.u[axis] * about(l.y - center_.y) + tangents_.v[axis] * about(l.z - center_.z);
+        const Interval place = at_center_[axis] + change;
+        // So that a NaN proves nothing.
+        if (!(place.lo >= lo)) lo = place.lo;
+        if (!(place.hi <= hi)) hi = place.hi;
+      }
+      if (lo > radius || hi < -radius) {
+        certificate.axis = static_cast<int>(axis);
+        certificate.negative = hi < -radius;
+        return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  // A difference of weights within, with its roundings.
+  static Interval about(double difference) {
+    return {difference - kWithinSlack, difference + kWithinSlack};
+  }
+
+  SubTriangle piece_;
+  TangentRanges tangents_;
+  dvec3 center_;
+  std::array<Interval, 2> at_center_;
+};
+
+void TubeFindings::clear() {
+  roots.clear();
+  open.clear();
+  t_end = kInfinity;
+  pieces = 0;
+  used_tangents = false;
+}
+
+PatchCertifier::PatchCertifier(const SurfaceChoice& choice, const Triangle& tri, uint32_t index,
+                               int levels)
+    : choice_(choice),
+      patch_(patch_of(choice.shell, tri)),
+      shape_(shape_of(choice)),
+      index_(index),
+      defined_(has_surface(tri)) {
+  if (!defined_) return;
+  nodes_.push_back(node_of(kWholeTriangle));
+  std::size_t first = 0;
+  for (int level = 0; level < levels; ++level) {
+    const std::size_t last = nodes_.size();
+    for (; first < last; ++first) {
+      for (const SubTriangle& below : quarter(nodes_[first].sub_triangle)) {
+        nodes_.push_back(node_of(below));
+      }
+    }
+  }
+}
+
+PatchCertifier::Node PatchCertifier::node_of(const SubTriangle& sub_triangle) const {
+  return {sub_triangle, enclose(choice_, patch_, sub_triangle)};
+}
+
+void PatchCertifier::search(const RayTube& tube, TubeFindings& findings) const {
+  if (!defined_) return;
+  findings.pieces = 0;
+  visit(nodes_[0], 0, 0, tube, findings);
+}
+
+void PatchCertifier::visit(const Node& node, std::size_t index, int depth, const RayTube& tube,
+                           TubeFindings& findings) const {
+  ++findings.pieces;
+  const Interval t = extent_along(node.enclosure, tube.origin, tube.direction);
+  if (is_off(node, t, tube, findings)) return;
+  std::optional<MeanValueForm> form;
+  const std::optional<Doubt> doubt = prove_by_tangents(node.sub_triangle, tube, findings, form);
+  if (!doubt) return;
+  if (depth == kDeepest || findings.pieces >= kMostPieces) {
+    findings.open.push_back({*doubt, t.lo});
+    findings.t_end = std::min(findings.t_end, t.lo);
+    return;
+  }
+  const std::array<SubTriangle, 4> children = quarter(node.sub_triangle);
+  const std::size_t child = index * 4 + 1;
+  for (std::size_t k = 0; k < 4; ++k) {
+    Certificate certificate{CertificateKind::hull, index_, children[k]};
+    if (form && form->prove_off(children[k], tube.radius, certificate)) {
+      if (findings.certificates != nullptr) findings.certificates->push_back(certificate);
+    } else if (child < nodes_.size()) {
+      visit(nodes_[child + k], child + k, depth + 1, tube, findings);
+    } else {
+      visit(node_of(children[k]), nodes_.size(), depth + 1, tube, findings);
+    }
+  }
+}
+
+// Comparisons are such that a NaN proves nothing.
+bool PatchCertifier::is_off(const Node& node, const Interval& t, const RayTube& tube,
+                            TubeFindings& findings) const {
+  Certificate certificate{CertificateKind::hull, index_, node.sub_triangle};
+  bool proven = false;
+  for (std::size_t axis = 0; axis < 2 && !proven; ++axis) {
+    const Interval x = extent_along(node.enclosure, tube.origin, tube.across[axis]);
+    proven = x.lo > tube.radius || x.hi < -tube.radius;
+    certificate.axis = static_cast<int>(axis);
+    certificate.negative = x.hi < -tube.radius;
+  }
+  if (!proven && t.hi < tube.t_min - tube.radius) {
+    proven = true;
+    certificate.kind = CertificateKind::before;
+  }
+  if (!proven && t.lo > findings.t_end) {
+    proven = true;
+    certificate.kind = CertificateKind::behind;
+    certificate.t = {findings.t_end, kInfinity};
+  }
+  if (proven && findings.certificates != nullptr) findings.certificates->push_back(certificate);
+  return proven;
+}
+
+// Where Newton's method ends, held within the piece: weights of the patch. It need not be a root:
+// what is proven about the point does not depend on how it was found.
+dvec3 PatchCertifier::newton(const SubTriangle& piece, const RayTube& tube) const {
+  dvec3 l(1.0 / 3.0);
+  for (int i = 0; i < kNewtonSteps; ++i) {
+    const dvec3 w = in_double::weights_of(piece, l);
+    const in_double::Displacement sigma =
+        in_double::displacement_and_derivatives(shape_, patch_.triangle, w);
+    const dvec3 D = weigh(w, patch_.D);
+    const dvec3 S = weigh(w, patch_.P) + D * sigma.s - tube.origin;
+    const auto along = [&](std::size_t vertex, double slope) {
+      const dvec3 tangent =
+          patch_.P[vertex] - patch_.P[0] + D * slope + (patch_.D[vertex] - patch_.D[0]) * sigma.s;
+      return dvec2(glm::dot(tangent, tube.across[0]), glm::dot(tangent, tube.across[1])) *
+             piece.size;
+    };
+    const dvec2 step = glm::inverse(glm::dmat2(along(1, sigma.u), along(2, sigma.v))) *
+                       dvec2(glm::dot(S, tube.across[0]), glm::dot(S, tube.across[1]));
+    dvec3 next(l.x + step.x + step.y, l.y - step.x, l.z - step.y);
+    next = glm::max(next, dvec3(0.0));
+    next /= next.x + next.y + next.z;
+    const double moved = glm::distance(next, l);
+    if (!std::isfinite(moved)) break;
+    l = next;
+    if (moved < 1e-13) break;
+  }
+  return exact_weights(in_double::weights_of(piece, l));
+}
+
+// With l the weights 1 and 2 within the piece, c a point of it, and Y any matrix: where F(l) = e,
+//   l - c = Y (e - F(c)) + (1 - Y J) (l - c),
+// J the mean of the tangents between c and l that the mean value theorem has, row by row. So l is
+// in the box around c - Y F(c) that the extents of e and of l - c give, Krawczyk's operator; and as
+// l -> l - Y (F(l) - e) contracts by q = |1 - Y J| in the piece, the ball around c of the radius
+// |Y (e - F(c))| / (1 - q) is mapped into itself: if the piece holds it, it holds one root
+// (Banach), and that is the only one of the piece.
+//
+// Before that the tangents are tried as a hull, of second order where the enclosure is of first.
+//
+// Nothing if the core of the piece is dealt with: its root was added to the findings, or that it
+// may have one beside the patch's border; or there is none. Else why not.
+std::optional<Doubt> PatchCertifier::prove_by_tangents(const SubTriangle& core, const RayTube& tube,
+                                                       TubeFindings& findings,
+                                                       std::optional<MeanValueForm>& form) const {
+  const SubTriangle piece = in_double::enlarged(core, kPieceMargin);
+  const std::optional<TangentRanges> tangents =
+      tangent_ranges(choice_, patch_, piece, {tube.across[0], tube.across[1], tube.direction});
+  if (!tangents) return Doubt::nonsmooth;
+  const dvec3 middle = exact_weights(in_double::centre_of(core));
+  const Enclosure at_middle = enclose(choice_, patch_, {middle, 0.0});
+  form.emplace(piece, *tangents, in_double::weights_in(piece, middle),
+               std::array{extent_along(at_middle, tube.origin, tube.across[0]),
+                          extent_along(at_middle, tube.origin, tube.across[1])});
+  Certificate hull{CertificateKind::hull, index_, core};
+  if (form->prove_off(core, tube.radius, hull)) {
+    if (findings.certificates != nullptr) findings.certificates->push_back(hull);
+    return std::nullopt;
+  }
+  const std::optional<Contraction> contraction = contraction_of(*tangents);
+  if (!contraction) return Doubt::fold;
+  const auto& [inverse, distance, factor] = *contraction;
+
+  const double piece_size = std::abs(piece.size);
+  const dvec3 center = newton(piece, tube);
+  const dvec3 within = in_double::weights_in(piece, center);
+  const Enclosure at = enclose(choice_, patch_, {center, 0.0});
+  const Interval spread(-tube.radius, tube.radius);
+  const std::array<Interval, 2> miss =
+      times(inverse, {extent_along(at, tube.origin, tube.across[0]) + spread,
+                      extent_along(at, tube.origin, tube.across[1]) + spread});
+
+  const std::array<double, 2> place{within.y, within.z};
+  std::array<Interval, 2> box;
+  for (std::size_t i = 0; i < 2; ++i) {
+    double reach = kWithinSlack;
+    for (std::size_t j = 0; j < 2; ++j) {
+      const double farthest = std::max(place[j], 1.0 - place[j]) + kWithinSlack;
+      reach = sum_above(reach, product_above(distance[i][j], farthest));
+    }
+    box[i] = place[i] - miss[i] + Interval(-reach, reach);
+  }
+  Certificate certificate{CertificateKind::no_root, index_, core};
+  const auto proven = [&] {
+    findings.used_tangents = true;
+    if (findings.certificates != nullptr) findings.certificates->push_back(certificate);
+  };
+  if (is_off_core(box[0], box[1])) {
+    proven();
+    return std::nullopt;
+  }
+
+  const double farthest = std::max(magnitude(miss[0]), magnitude(miss[1]));
+  const double radius = divide_by_positive(farthest, 1.0 - Interval(factor)).hi;
+  const double held = radius + kWithinSlack;
+  const bool is_held =
+      within.y - held >= 0.0 && within.z - held >= 0.0 && within.x - 2.0 * held >= 0.0;
+  if (!is_held) {
+    // Smaller pieces do not help where the tube is wide for this one.
+    const double wide = tube.radius * std::max(std::abs(inverse[0][0]) + std::abs(inverse[1][0]),
+                                               std::abs(inverse[0][1]) + std::abs(inverse[1][1]));
+    if (!(wide > 0.5 * kCoreWeight)) return Doubt::fold;
+    const bool is_inside = std::min({center.x, center.y, center.z}) > 2.0 * wide * piece_size;
+    const double t = extent_along(at, tube.origin, tube.direction).lo - magnitude(tangents->u[2]) -
+                     magnitude(tangents->v[2]);
+    findings.open.push_back({is_inside ? Doubt::fold : Doubt::border, t});
+    findings.t_end = std::min(findings.t_end, t);
+    return std::nullopt;
+  }
+
+  const double along = sum_above(product_above(magnitude(tangents->u[2]), radius),
+                                 product_above(magnitude(tangents->v[2]), radius));
+  certificate.kind = CertificateKind::one_root;
+  certificate.piece = piece;
+  certificate.weights = center;
+  certificate.weight_radius = product_above(piece_size, radius);
+  certificate.t = extent_along(at, tube.origin, tube.direction) + Interval(-along, along);
+  proven();
+  // The root of another core, or of none.
+  if (is_off_core(about(within.y, held), about(within.z, held))) return std::nullopt;
+  if (certificate.t.hi < tube.t_min - tube.radius) return std::nullopt;
+  const double off = certificate.weight_radius;
+  const bool is_inside =
+      center.y - off > 0.0 && center.z - off > 0.0 && (center.x - 2.0 * off) > 0.0;
+  if (!is_inside) {
+    findings.open.push_back({Doubt::border, certificate.t.lo});
+    findings.t_end = std::min(findings.t_end, certificate.t.lo);
+    return std::nullopt;
+  }
+  findings.roots.push_back({index_, piece, center, off, certificate.t});
+  if (certificate.t.lo > tube.t_min + tube.radius) {
+    findings.t_end = std::min(findings.t_end, certificate.t.hi);
+  }
+  return std::nullopt;
+}
+
+}  // namespace trisect

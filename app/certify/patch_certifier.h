@@ -1,0 +1,91 @@
+// What the rays of a tube meet on one curved patch, proven by interval arithmetic in double
+// precision. Every bound holds for the baked numbers in exact arithmetic; none rests on samples.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "app/certify/certificate.h"
+#include "app/surface/patch_range.h"
+#include "app/surface/surface_choice.h"
+#include "app/surface/tangent_range.h"
+
+namespace trisect {
+
+// Why nothing could be proven.
+enum class Doubt {
+  border,    // the rays meet the patch on both sides of its border
+  fold,      // the surface may turn away from the rays within the tube: they graze it
+  nonsmooth  // no bound of the tangents is known there
+};
+
+// What the rays meet on the patches of a scene. Call clear() before each search.
+struct TubeFindings {
+  // Every ray of the tube meets the patch here, once in `piece`.
+  struct Root {
+    uint32_t triangle;
+    in_double::SubTriangle piece;
+    glm::dvec3 weights;
+    double weight_radius;  // of the weights 1 and 2
+    Interval t;
+  };
+  struct Open {
+    Doubt doubt;
+    double t;  // from here on
+  };
+
+  void clear();
+
+  std::vector<Root> roots;
+  std::vector<Open> open;
+  // Pieces beyond this need not be looked at: the last t of the first root that is proven, or where
+  // it is open already whether there is one.
+  double t_end = kInfinity;
+  int pieces = 0;              // of the patch that is searched
+  bool used_tangents = false;  // whether Krawczyk's operator proved something, or only hulls
+  std::vector<Certificate>* certificates = nullptr;  // gets every certificate, if set
+};
+
+class MeanValueForm;
+
+// The search divides the patch in four until each piece
+// - is off the tube, before its beginning or behind a root: by an enclosure (patch_range.h), or by
+//   the mean value theorem with ranges of the tangents (tangent_range.h);
+// - or is proven to hold one root for every ray of the tube, or none, by Krawczyk's operator with
+//   the ranges of the tangents: Krawczyk 1969, "Newton-Algorithmen zur Bestimmung von Nullstellen
+//   mit Fehlerschranken"; Neumaier 1990, "Interval Methods for Systems of Equations", section 5.1;
+// - or is so small that it stays open.
+class PatchCertifier {
+ public:
+  // Keeps the enclosures of `levels` divisions. tri: baked, as the kernels have it.
+  PatchCertifier(const SurfaceChoice& choice, const Triangle& tri, uint32_t index, int levels);
+
+  // Adds what it finds. Safe to call from several threads, each with findings of its own.
+  void search(const RayTube& tube, TubeFindings& findings) const;
+
+ private:
+  struct Node {
+    in_double::SubTriangle sub_triangle;
+    Enclosure enclosure;
+  };
+
+  [[nodiscard]] Node node_of(const in_double::SubTriangle& sub_triangle) const;
+  void visit(const Node& node, std::size_t index, int depth, const RayTube& tube,
+             TubeFindings& findings) const;
+  [[nodiscard]] bool is_off(const Node& node, const Interval& t, const RayTube& tube,
+                            TubeFindings& findings) const;
+  [[nodiscard]] glm::dvec3 newton(const in_double::SubTriangle& piece, const RayTube& tube) const;
+  [[nodiscard]] std::optional<Doubt> prove_by_tangents(const in_double::SubTriangle& core,
+                                                       const RayTube& tube, TubeFindings& findings,
+                                                       std::optional<MeanValueForm>& form) const;
+
+  SurfaceChoice choice_;
+  Patch patch_;
+  in_double::Shape shape_;
+  uint32_t index_;
+  bool defined_;             // false: there is no surface (has_surface)
+  std::vector<Node> nodes_;  // the children of node i are 4 i + 1 to 4 i + 4
+};
+
+}  // namespace trisect

@@ -1,0 +1,30 @@
+// A second opinion on certificates, in numbers of fifty digits (MPFR). It shares nothing with what
+// made them but the baked numbers: the surfaces are written once more, from their definitions.
+#pragma once
+
+#include "app/certify/certificate.h"
+#include "app/surface/surface_choice.h"
+
+namespace trisect::test {
+
+enum class Opinion {
+  proven,     // it holds: in exact arithmetic up to a rounding of fifty digits
+  supported,  // nothing against it was found where it was tried
+  unknown,    // Newton's method, which should have found the root, found nothing
+  refuted
+};
+
+// What is tried:
+// - hull, before and behind: of surfaces with polynomial coordinates all Bernstein coefficients
+// must
+//   be on the side that is claimed, which proves it; of others, 16 points.
+// - no_root: Newton's method, for the ray in the middle and the four at the tube's edges, must find
+//   no root in the core; nor may one of 16 points lie in the tube.
+// - one_root: for each of the five, Newton's method must find a root that lies, like its t, within
+//   what is claimed; and from the piece's corners no other root in the piece.
+//
+// choice: with alpha as the kernels have it (with_single_alpha).
+Opinion opinion_on(const Certificate& certificate, const RayTube& tube, const SurfaceChoice& choice,
+                   const Triangle& tri);
+
+}  // namespace trisect::test

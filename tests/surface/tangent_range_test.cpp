@@ -1,0 +1,109 @@
+// Ranges of tangents, against the surface in higher precision.
+#include "app/surface/tangent_range.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "app/bake/bake.h"
+#include "app/stress/stress_scenes.h"
+#include "tests/support/scenes.h"
+#include "tests/surface/surface_long_double.h"
+
+namespace trisect {
+namespace {
+
+using glm::dvec3;
+
+// Between any two points of a sub-triangle the surface changes by what the ranges of its tangents
+// say: sub-triangles of all sizes, some of which reach beyond the patch, steep normals among them,
+// for which the sphere surface is not differentiable everywhere.
+TEST(TangentRanges, HoldWhatTheSurfaceChangesBy) {
+  std::mt19937_64 random(31);
+  for (const SurfaceChoice& choice : {SurfaceChoice{SURFACE_FLAT, 0.0, SHELL_NORMAL},
+                                      SurfaceChoice{SURFACE_PHONG, 0.65, SHELL_NORMAL},
+                                      SurfaceChoice{SURFACE_PHONG, 0.65, SHELL_HEIGHT},
+                                      SurfaceChoice{SURFACE_PHONG, -2.0, SHELL_HEIGHT},
+                                      SurfaceChoice{SURFACE_SPHERE, 0.0, SHELL_NORMAL},
+                                      SurfaceChoice{SURFACE_SPHERE, 0.0, SHELL_HEIGHT}}) {
+    SCOPED_TRACE(testing::Message() << "surface " << choice.surface << " shell " << choice.shell);
+    const in_long_double::Shape shape{choice.surface, choice.shell,
+                                      static_cast<long double>(choice.alpha)};
+    std::size_t bounded = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const double spread = std::array{5.0, 30.0, 70.0}.at(static_cast<std::size_t>(i) % 3);
+      test::RandomPatch corners = test::random_patch(random, spread);
+      // Far from the scene's origin the vertices' sizes tell the roundings, not the edges'.
+      for (dvec3& position : corners.positions) position += dvec3(i % 5 * 100.0);
+      const Triangle baked = bake_triangle(corners.positions, corners.normals, choice);
+      if (!has_surface(baked)) continue;
+      const Patch patch = patch_of(choice.shell, baked);
+      const in_long_double::Triangle tri = in_long_double::widened(patch.triangle);
+      in_double::SubTriangle node = kWholeTriangle;
+      for (int level = 0; level < 14; ++level) {
+        const in_double::SubTriangle piece = in_double::enlarged(node, i % 2 == 0 ? 0.125 : 0.0);
+        const dvec3 axis = stress::any_direction(random);
+        const auto ranges = tangent_ranges(choice, patch, piece, {axis, axis, axis});
+        node = in_double::child(node, static_cast<uint>(random() % 4));
+        if (!ranges) continue;
+        ++bounded;
+        const auto place = [&](const dvec3& l) {
+          const in_long_double::vec3 w =
+              in_long_double::vec3(piece.origin) +
+              in_long_double::vec3(l) * static_cast<long double>(piece.size);
+          // Of weights whose sum is 1: the first gives way.
+          const in_long_double::vec3 exact(1.0L - w.y - w.z, w.y, w.z);
+          return glm::dot(in_long_double::surface_point(shape, tri, exact),
+                          in_long_double::vec3(axis));
+        };
+        const dvec3 a = test::random_weights(random);
+        const dvec3 b = test::random_weights(random);
+        const long double change = place(b) - place(a);
+        // Some forty roundings of the points in the test's own precision.
+        const long double rounding = 40.0L * std::numeric_limits<long double>::epsilon() *
+                                     static_cast<long double>(longest_of(patch.P));
+        const Interval expected = ranges->u[0] * (b.y - a.y) + ranges->v[1] * (b.z - a.z);
+        ASSERT_LE(static_cast<long double>(expected.lo), change + rounding)
+            << i << " at level " << level;
+        ASSERT_GE(static_cast<long double>(expected.hi), change - rounding)
+            << i << " at level " << level;
+      }
+    }
+    // Of 14,000: all but those of the sphere surface about vertices and steep normals.
+    EXPECT_GT(bounded, choice.surface == SURFACE_SPHERE ? 3000U : 11000U);
+  }
+}
+
+// On small pieces they are as narrow as the surface bends: what is left of a range at a quarter of
+// the size is not much more than a quarter.
+TEST(TangentRanges, ShrinkWithThePiece) {
+  std::mt19937_64 random(32);
+  for (const SurfaceChoice& choice : {SurfaceChoice{SURFACE_PHONG, 0.65, SHELL_NORMAL},
+                                      SurfaceChoice{SURFACE_PHONG, 0.65, SHELL_HEIGHT},
+                                      SurfaceChoice{SURFACE_SPHERE, 0.0, SHELL_NORMAL}}) {
+    SCOPED_TRACE(testing::Message() << "surface " << choice.surface << " shell " << choice.shell);
+    for (int i = 0; i < 50; ++i) {
+      const test::RandomPatch corners = test::random_patch(random, 10.0);
+      const Patch patch =
+          patch_of(choice.shell, bake_triangle(corners.positions, corners.normals, choice));
+      const dvec3 axis = stress::any_direction(random);
+      const auto width_at = [&](int level) {
+        in_double::SubTriangle node = kWholeTriangle;
+        for (int k = 0; k < level; ++k) node = in_double::child(node, 3);
+        const auto ranges = tangent_ranges(choice, patch, node, {axis, axis, axis});
+        // By the weights of the patch.
+        return ranges ? (ranges->u[0].hi - ranges->u[0].lo) / std::abs(node.size) : 0.0;
+      };
+      const double wide = width_at(4);
+      if (wide > 0.0) {
+        EXPECT_LT(width_at(6), 0.35 * wide) << i;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trisect
