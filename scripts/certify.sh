@@ -26,9 +26,9 @@ pictures() {
   local model
   for model in "${models[@]}"; do
     on newer build/release/trisect certify "assets/$model.obj" --surface "$1" --shell "$2" --size $size --json "$work/a.json" >/dev/null || wrong=1
-    jq -r --arg model "$model" --arg surface "$1" --arg shell "$2" '.reasons as $r | .width * .height as $n | "| \($model) | \($surface) | \($shell)"
+    jq -r --arg model "$model" --arg surface "$1" --arg shell "$2" '.reasons as $r | "| \($model) | \($surface) | \($shell)"
       + " | \($r.nothing_near) | \($r.hulls) | \($r.contraction) | \($r.one_root) | \($r.border) | \($r.fold) | \($r.nonsmooth) | \($r.ray_start + $r.order)"
-      + " | \(.wrong) | \(.proof_ms / $n * 10000 | round / 10) |"' "$work/a.json"
+      + " | \(.wrong) |"' "$work/a.json"
   done
 }
 
@@ -67,10 +67,10 @@ the ray's start; or where two roots are as near as each other.
 
 ## Pictures of $size pixels
 
-Pixels by reason, wrong answers of the robust solver, and microseconds for a pixel's proof on $(nproc) cores.
+Pixels by reason, and wrong answers of the robust solver.
 
-| model | surface | shell | nothing near | hulls | contraction | one root | border | fold | nonsmooth | start, order | wrong | us |
-|---|---|---|---|---|---|---|---|---|---|---|---|---|
+| model | surface | shell | nothing near | hulls | contraction | one root | border | fold | nonsmooth | start, order | wrong |
+|---|---|---|---|---|---|---|---|---|---|---|---|
 END
   pictures flat normal
   pictures phong normal

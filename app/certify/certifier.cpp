@@ -15,18 +15,11 @@ namespace {
 
 using glm::dvec3;
 
-// Levels of each patch's quadtree that are kept in memory: 85 enclosures of 0.4 kilobytes, fewer if
-// there are very many patches.
-int kept_levels(std::size_t patches) {
+// Divisions of each patch whose enclosures are kept in memory: 85 enclosures of 0.4 kilobytes,
+// fewer if there are very many patches.
+int kept_divisions(std::size_t patches) {
   if (patches <= 10000) return 3;
   return patches <= 100000 ? 1 : 0;
-}
-
-// Of the patch's ball; of the flat triangle's where there is no surface.
-Box box_of(const Triangle& tri) {
-  const dvec3 center(tri.Domain);
-  const dvec3 radius(static_cast<double>(std::abs(tri.Domain.w)));
-  return {center - radius, center + radius};
 }
 
 // Whether two roots of a patch are one: the region of one of them, in the weights 1 and 2, lies in
@@ -89,10 +82,10 @@ Certifier::Certifier(const BakedScene& scene)
   std::vector<Box> boxes;
   boxes.reserve(triangles_.size());
   patches_.reserve(triangles_.size());
-  const int levels = kept_levels(triangles_.size());
+  const int divisions = kept_divisions(triangles_.size());
   for (uint32_t i = 0; i < triangles_.size(); ++i) {
-    boxes.push_back(box_of(triangles_[i]));
-    patches_.emplace_back(choice_, triangles_[i], i, levels);
+    boxes.push_back(box_around_ball(glm::dvec4(triangles_[i].Domain)));
+    patches_.emplace_back(choice_, triangles_[i], i, divisions);
   }
   tree_ = BoxTree(boxes);
 }

@@ -51,6 +51,12 @@ bool meets(const Box& box, const dvec3& origin, const dvec3& direction, double t
 
 }  // namespace
 
+Box box_around_ball(const glm::dvec4& ball) {
+  const dvec3 center(ball);
+  const dvec3 radius(std::abs(ball.w));
+  return {center - radius, center + radius};
+}
+
 BoxTree::BoxTree(std::span<const Box> boxes) {
   std::vector<uint32_t> indices(boxes.size());
   std::iota(indices.begin(), indices.end(), 0U);

@@ -14,6 +14,9 @@ struct Box {
   glm::dvec3 hi;
 };
 
+// Of a ball: its centre and radius, whose sign does not count.
+Box box_around_ball(const glm::dvec4& ball);
+
 // Not changed after construction: safe to use from several threads.
 class BoxTree {
  public:

@@ -18,14 +18,6 @@ int kept_levels(std::size_t patches) {
   return patches <= 30000 ? 2 : 1;
 }
 
-// Of the patch's ball. Where there is no surface it is that of the flat triangle's: a search finds
-// nothing in it.
-Box box_of(const Triangle& tri) {
-  const dvec3 center(tri.Domain);
-  const dvec3 radius(static_cast<double>(std::abs(tri.Domain.w)));
-  return {center - radius, center + radius};
-}
-
 bool earlier(const OracleRoot& a, const OracleRoot& b) {
   return a.t < b.t;
 }
@@ -81,7 +73,9 @@ Oracle::Oracle(const BakedScene& scene) {
   const int levels = kept_levels(scene.triangles.size());
   const SurfaceChoice choice = with_single_alpha(scene.choice);
   for (const Triangle& tri : scene.triangles) {
-    boxes.push_back(box_of(tri));
+    // Of the patch's ball. Where there is no surface it is that of the flat triangle's: a search
+    // finds nothing in it.
+    boxes.push_back(box_around_ball(glm::dvec4(tri.Domain)));
     patches_.emplace_back(choice, tri, levels);
   }
   tree_ = BoxTree(boxes);

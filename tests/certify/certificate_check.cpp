@@ -75,7 +75,7 @@ class Surface {
   }
 
   [[nodiscard]] Vector point(const Weights& w) const {
-    const Vector T = blend(P_, w);
+    Vector T = blend(P_, w);
     if (choice_.surface == SURFACE_FLAT) return T;
     const Vector D = blend(D_, w);
     if (choice_.surface == SURFACE_SPHERE) return T + D * sphere(w, T, D);

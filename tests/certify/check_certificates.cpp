@@ -62,8 +62,9 @@ std::vector<std::size_t> for_each_certificate(const Certifier& certifier, const 
                     certificates.clear();
                     static_cast<void>(certifier.first(ray, radius, &certificates));
                     const RayTube tube = tube_around(ray, radius);
-                    for (const Certificate& certificate : certificates)
+                    for (const Certificate& certificate : certificates) {
                       each(number++, certificate, tube);
+                    }
                     counts[y] += certificates.size();
                   }
                 },
