@@ -23,7 +23,8 @@ struct RayTube {
 // F(w) = ((S(w) - origin).across[0], (S(w) - origin).across[1]) is where the surface lies across
 // the tube; t(w) = (S(w) - origin).direction, how far along.
 enum class CertificateKind {
-  // The extent of F along one axis is beyond the tube: no ray of it meets the sub-triangle.
+  // Along an axis a of the plane across the surface lies beyond the tube, a.F > |a|_1 radius, so no
+  // ray of it meets the sub-triangle.
   hull,
   // The sub-triangle lies before the rays' beginning: t < t_min - radius.
   before,
@@ -41,9 +42,8 @@ struct Certificate {
   CertificateKind kind;
   uint32_t triangle;
   in_double::SubTriangle piece;
-  // hull: the axis across, and whether the surface lies on its negative side.
-  int axis = 0;
-  bool negative = false;
+  // hull: a, which need not be of unit length.
+  glm::dvec2 axis{0.0};
   // one_root
   glm::dvec3 weights{0.0};
   double weight_radius = 0.0;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
+#include "app/surface/sphere_range.h"
 #include "app/surface/to_double.h"
 
 namespace trisect {
@@ -32,6 +34,24 @@ double magnitude(const Interval& a) {
   return std::max(std::abs(a.lo), std::abs(a.hi));
 }
 
+double middle_of(const Interval& a) {
+  return 0.5 * a.lo + 0.5 * a.hi;
+}
+
+// Axes in the plane across along which something about `middle` may be off the tube: toward it, and
+// the tube's own.
+std::array<dvec2, 3> separating_axes(const dvec2& middle) {
+  const double size = glm::length(middle);
+  const dvec2 toward = size > 0.0 ? middle / size : dvec2(1.0, 0.0);
+  return {dvec2(std::copysign(1.0, middle.x), 0.0), dvec2(0.0, std::copysign(1.0, middle.y)),
+          toward};
+}
+
+// How far a tube reaches along an axis, rounded up.
+double reach_of(const dvec2& axis, double radius) {
+  return ((Interval(std::abs(axis.x)) + Interval(std::abs(axis.y))) * Interval(radius)).hi;
+}
+
 // Rounded up, of numbers that are not negative.
 double sum_above(double a, double b) {
   return (Interval(a) + Interval(b)).hi;
@@ -57,11 +77,10 @@ struct Contraction {
 };
 
 std::optional<Contraction> contraction_of(const TangentRanges& tangents) {
-  const auto middle = [](const Interval& a) { return 0.5 * a.lo + 0.5 * a.hi; };
-  const double a = middle(tangents.u[0]);
-  const double b = middle(tangents.v[0]);
-  const double c = middle(tangents.u[1]);
-  const double d = middle(tangents.v[1]);
+  const double a = middle_of(tangents.u[0]);
+  const double b = middle_of(tangents.v[0]);
+  const double c = middle_of(tangents.u[1]);
+  const double d = middle_of(tangents.v[1]);
   const double determinant = a * d - b * c;
   Contraction contraction{};
   // Of columns, as GLSL has it.
@@ -112,24 +131,25 @@ class MeanValueForm {
 
   // Whether a part of the piece is off the tube along an axis, which `certificate` then says.
   bool prove_off(const SubTriangle& part, double radius, Certificate& certificate) const {
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      // The bound is convex in the weights: its largest values are at corners.
-      double lo = kInfinity;
-      double hi = -kInfinity;
-      for (const dvec3& corner : corner_weights(part)) {
-        const dvec3 l = in_double::weights_in(piece_, corner);
-        const Interval change =
-            tangents_.u[axis] * about(l.y - center_.y) + tangents_.v[axis] * about(l.z - center_.z);
-        const Interval place = at_center_[axis] + change;
-        // So that a NaN proves nothing.
-        if (!(place.lo >= lo)) lo = place.lo;
-        if (!(place.hi <= hi)) hi = place.hi;
+    // The bounds are convex in the weights: their largest values are at corners.
+    std::array<std::array<Interval, 2>, 3> places;
+    dvec2 middle(0.0);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const dvec3 l = in_double::weights_in(piece_, corner_weights(part)[k]);
+      for (std::size_t i = 0; i < 2; ++i) {
+        places[k][i] = at_center_[i] + tangents_.u[i] * about(l.y - center_.y) +
+                       tangents_.v[i] * about(l.z - center_.z);
+        middle[static_cast<int>(i)] += middle_of(places[k][i]);
       }
-      if (lo > radius || hi < -radius) {
-        certificate.axis = static_cast<int>(axis);
-        certificate.negative = hi < -radius;
-        return true;
-      }
+    }
+    for (const dvec2& axis : separating_axes(middle)) {
+      const bool is_off = std::all_of(places.begin(), places.end(), [&](const auto& place) {
+        return (Interval(axis.x) * place[0] + Interval(axis.y) * place[1]).lo >
+               reach_of(axis, radius);
+      });
+      if (!is_off) continue;
+      certificate.axis = axis;
+      return true;
     }
     return false;
   }
@@ -162,20 +182,71 @@ PatchCertifier::PatchCertifier(const SurfaceChoice& choice, const Triangle& tri,
       index_(index),
       defined_(has_surface(tri)) {
   if (!defined_) return;
-  nodes_.push_back(node_of(kWholeTriangle));
+  // Hulls of second order: of the sphere surface alone, whose others are of first.
+  const bool has_flat = choice.surface == SURFACE_SPHERE && choice.shell == SHELL_NORMAL;
+  const auto keep = [&](const SubTriangle& sub_triangle, int level) {
+    nodes_.push_back(node_of(sub_triangle));
+    if (!has_flat) return;
+    FlatPieces flat = flat_pieces_of(sub_triangle, std::min(2, levels - level));
+    const bool is_finite = std::all_of(flat.points.begin(), flat.points.end(), [&](const dvec3& p) {
+      return std::isfinite(glm::dot(p, p) + flat.radius);
+    });
+    if (is_finite) nodes_.back().flat = std::move(flat);
+  };
+  keep(kWholeTriangle, 0);
   std::size_t first = 0;
   for (int level = 0; level < levels; ++level) {
     const std::size_t last = nodes_.size();
     for (; first < last; ++first) {
-      for (const SubTriangle& below : quarter(nodes_[first].sub_triangle)) {
-        nodes_.push_back(node_of(below));
-      }
+      for (const SubTriangle& below : quarter(nodes_[first].sub_triangle)) keep(below, level + 1);
     }
   }
 }
 
 PatchCertifier::Node PatchCertifier::node_of(const SubTriangle& sub_triangle) const {
-  return {sub_triangle, enclose(choice_, patch_, sub_triangle)};
+  return {sub_triangle, enclose(choice_, patch_, sub_triangle), {}};
+}
+
+PatchCertifier::FlatPieces PatchCertifier::flat_pieces_of(const SubTriangle& sub_triangle,
+                                                          int divisions) const {
+  FlatPieces flat;
+  if (divisions == 0) {
+    const CornerWeights weights = corner_weights(sub_triangle);
+    flat.radius = sphere_chord_bound(patch_, weights);
+    for (const dvec3& w : weights) {
+      flat.points.push_back(in_double::surface_point(shape_, patch_.triangle, w));
+    }
+    return flat;
+  }
+  for (const SubTriangle& below : quarter(sub_triangle)) {
+    const FlatPieces part = flat_pieces_of(below, divisions - 1);
+    // So that a NaN stays one.
+    if (!(part.radius <= flat.radius)) flat.radius = part.radius;
+    for (const dvec3& point : part.points) {
+      if (std::find(flat.points.begin(), flat.points.end(), point) == flat.points.end()) {
+        flat.points.push_back(point);
+      }
+    }
+  }
+  return flat;
+}
+
+// The extents of both enclosures along an axis of about unit length, as far as they agree.
+Interval PatchCertifier::extent_of(const Node& node, const dvec3& origin, const dvec3& axis) {
+  const Interval a = extent_along(node.enclosure, origin, axis);
+  if (node.flat.points.empty()) return a;
+  Enclosure flat{};
+  Interval b(kInfinity, -kInfinity);
+  // Ten of the points at a time.
+  const std::vector<dvec3>& points = node.flat.points;
+  for (std::size_t first = 0; first < points.size(); first += flat.points.size()) {
+    flat.count = std::min(flat.points.size(), points.size() - first);
+    flat.radius = node.flat.radius;
+    std::copy_n(points.begin() + static_cast<std::ptrdiff_t>(first), flat.count,
+                flat.points.begin());
+    b = hull(b, extent_along(flat, origin, axis));
+  }
+  return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
 }
 
 void PatchCertifier::search(const RayTube& tube, TubeFindings& findings) const {
@@ -187,7 +258,7 @@ void PatchCertifier::search(const RayTube& tube, TubeFindings& findings) const {
 void PatchCertifier::visit(const Node& node, std::size_t index, int depth, const RayTube& tube,
                            TubeFindings& findings) const {
   ++findings.pieces;
-  const Interval t = extent_along(node.enclosure, tube.origin, tube.direction);
+  const Interval t = extent_of(node, tube.origin, tube.direction);
   if (is_off(node, t, tube, findings)) return;
   std::optional<MeanValueForm> form;
   const std::optional<Doubt> doubt = prove_by_tangents(node.sub_triangle, tube, findings, form);
@@ -215,12 +286,18 @@ void PatchCertifier::visit(const Node& node, std::size_t index, int depth, const
 bool PatchCertifier::is_off(const Node& node, const Interval& t, const RayTube& tube,
                             TubeFindings& findings) const {
   Certificate certificate{CertificateKind::hull, index_, node.sub_triangle};
+  dvec2 middle(0.0);
+  for (std::size_t k = 0; k < node.enclosure.count; ++k) {
+    const dvec3 x = node.enclosure.points[k] - tube.origin;
+    middle += dvec2(glm::dot(x, tube.across[0]), glm::dot(x, tube.across[1]));
+  }
   bool proven = false;
-  for (std::size_t axis = 0; axis < 2 && !proven; ++axis) {
-    const Interval x = extent_along(node.enclosure, tube.origin, tube.across[axis]);
-    proven = x.lo > tube.radius || x.hi < -tube.radius;
-    certificate.axis = static_cast<int>(axis);
-    certificate.negative = x.hi < -tube.radius;
+  for (const dvec2& axis : separating_axes(middle)) {
+    // The axis' own roundings are among those that extents have room for.
+    const dvec3 across = tube.across[0] * axis.x + tube.across[1] * axis.y;
+    proven = extent_of(node, tube.origin, across).lo > reach_of(axis, tube.radius);
+    certificate.axis = axis;
+    if (proven) break;
   }
   if (!proven && t.hi < tube.t_min - tube.radius) {
     proven = true;

@@ -65,12 +65,23 @@ class PatchCertifier {
   void search(const RayTube& tube, TubeFindings& findings) const;
 
  private:
+  // The surface over a sub-triangle is no farther than `radius` from the hull of these points of
+  // it: corners of smaller ones, whose flat triangles it keeps near to (sphere_chord_bound).
+  struct FlatPieces {
+    std::vector<glm::dvec3> points;
+    double radius = 0.0;
+  };
   struct Node {
     in_double::SubTriangle sub_triangle;
     Enclosure enclosure;
+    // Of the sphere surface, where it is kept; else it has no points.
+    FlatPieces flat;
   };
 
   [[nodiscard]] Node node_of(const in_double::SubTriangle& sub_triangle) const;
+  [[nodiscard]] FlatPieces flat_pieces_of(const in_double::SubTriangle& sub_triangle,
+                                          int divisions) const;
+  static Interval extent_of(const Node& node, const glm::dvec3& origin, const glm::dvec3& axis);
   void visit(const Node& node, std::size_t index, int depth, const RayTube& tube,
              TubeFindings& findings) const;
   [[nodiscard]] bool is_off(const Node& node, const Interval& t, const RayTube& tube,

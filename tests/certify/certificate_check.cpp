@@ -190,11 +190,14 @@ class Check {
     return dot(surface_.point(w) - origin_, axes_[axis]);
   }
 
-  // Whether sign * place is above the bound all over the piece.
-  [[nodiscard]] Opinion is_above(const Piece& piece, std::size_t axis, int sign,
+  // Whether factor.(place along each axis) is above the bound all over the piece.
+  [[nodiscard]] Opinion is_above(const Piece& piece, const glm::dvec3& factor,
                                  const Real& bound) const {
+    const Vector along =
+        axes_[0] * Real(factor.x) + axes_[1] * Real(factor.y) + axes_[2] * Real(factor.z);
     const auto value = [&](int i, int j, int n) {
-      return Real(sign * place(piece.out(Real(i) / n, Real(j) / n), axis));
+      const Weights w = piece.out(Real(i) / n, Real(j) / n);
+      return dot(surface_.point(w) - origin_, along);
     };
     if (!surface_.is_cubic()) {
       for (const auto& [i, j] : points()) {
@@ -325,12 +328,13 @@ Opinion opinion_on(const Certificate& certificate, const RayTube& tube, const Su
   const Piece piece(certificate.piece);
   switch (certificate.kind) {
     case CertificateKind::hull:
-      return check.is_above(piece, static_cast<std::size_t>(certificate.axis),
-                            certificate.negative ? -1 : 1, check.radius());
+      return check.is_above(
+          piece, {certificate.axis, 0.0},
+          (abs(Real(certificate.axis.x)) + abs(Real(certificate.axis.y))) * check.radius());
     case CertificateKind::before:
-      return check.is_above(piece, 2, -1, check.radius() - check.t_min());
+      return check.is_above(piece, {0.0, 0.0, -1.0}, check.radius() - check.t_min());
     case CertificateKind::behind:
-      return check.is_above(piece, 2, 1, Real(certificate.t.lo));
+      return check.is_above(piece, {0.0, 0.0, 1.0}, Real(certificate.t.lo));
     case CertificateKind::no_root:
       return check.no_root(piece);
     default:

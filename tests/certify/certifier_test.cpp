@@ -168,7 +168,8 @@ TEST(Certifier, SaysWhyAnAnswerIsOpen) {
   EXPECT_EQ(reason({0.2, 0.2, 1.0}, down), Reason::one_root);
   EXPECT_EQ(reason({5.0, 5.0, 1.0}, down), Reason::nothing_near);
   EXPECT_EQ(reason({1.1, 0.5, 1.0}, down), Reason::hulls);
-  EXPECT_EQ(reason({0.6, 0.6, 1.0}, down), Reason::contraction);
+  EXPECT_EQ(reason({0.6, 0.6, 1.0}, down), Reason::hulls);
+  EXPECT_EQ(reason({0.9, 0.11, 1.0}, down), Reason::contraction);
   EXPECT_EQ(reason({0.5, 1e-7, 1.0}, down), Reason::border);
   EXPECT_EQ(reason({0.0, 0.0, 1.0}, down), Reason::border);
   EXPECT_EQ(reason({0.2, -1.0, 0.0}, {0.0, 1.0, 0.0}), Reason::fold);
@@ -248,7 +249,7 @@ TEST(Certificates, AreRefutedIfTheyAreWrong) {
       ASSERT_NE(opinion(right), Opinion::refuted);
       Certificate wrong = right;
       if (right.kind == CertificateKind::hull) {
-        wrong.negative = !right.negative;
+        wrong.axis = -right.axis;
         EXPECT_EQ(opinion(wrong), Opinion::refuted);
       }
       if (right.kind == CertificateKind::one_root) {
@@ -262,6 +263,7 @@ TEST(Certificates, AreRefutedIfTheyAreWrong) {
         wrong.kind = CertificateKind::no_root;
         EXPECT_EQ(opinion(wrong), Opinion::refuted);
         wrong.kind = CertificateKind::hull;
+        wrong.axis = {1.0, 0.0};
         EXPECT_EQ(opinion(wrong), Opinion::refuted);
         wrong.kind = CertificateKind::behind;
         EXPECT_EQ(opinion(wrong), Opinion::refuted);
