@@ -331,7 +331,8 @@ dvec3 PatchCertifier::newton(const SubTriangle& piece, const RayTube& tube) cons
     const dvec2 step = glm::inverse(glm::dmat2(along(1, sigma.u), along(2, sigma.v))) *
                        dvec2(glm::dot(S, tube.across[0]), glm::dot(S, tube.across[1]));
     dvec3 next(l.x + step.x + step.y, l.y - step.x, l.z - step.y);
-    next = glm::max(next, dvec3(0.0));
+    // Inside, whatever its roundings: the tangents' ranges hold there.
+    next = glm::max(next, dvec3(1e-9));
     next /= next.x + next.y + next.z;
     const double moved = glm::distance(next, l);
     if (!std::isfinite(moved)) break;
