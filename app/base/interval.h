@@ -38,6 +38,13 @@ inline Interval hull(const Interval& a, const Interval& b) {
   return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
 }
 
+// The largest size of its numbers; NaN if one of its ends is.
+inline double magnitude(const Interval& a) {
+  const double lo = std::abs(a.lo);
+  const double hi = std::abs(a.hi);
+  return std::isnan(lo) || lo > hi ? lo : hi;
+}
+
 inline Interval operator-(const Interval& a) {
   return {-a.hi, -a.lo};
 }

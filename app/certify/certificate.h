@@ -32,9 +32,8 @@ enum class CertificateKind {
   behind,
   // No ray meets the sub-triangle: Krawczyk's operator maps the enlarged one off it.
   no_root,
-  // Every ray meets the enlarged sub-triangle once, within weight_radius of `weights` (of the
-  // weights
-  // 1 and 2 of the patch) and with a t of this certificate's.
+  // Every ray meets the enlarged sub-triangle once, within weight_radius of `weights` (the patch's
+  // weights 1 and 2) and at one of this certificate's t.
   one_root
 };
 
@@ -42,6 +41,8 @@ struct Certificate {
   CertificateKind kind;
   uint32_t triangle;
   in_double::SubTriangle piece;
+  // The sub-triangle that is dealt with by that: the piece or, of one_root, what it enlarges.
+  in_double::SubTriangle core = piece;
   // hull: a, which need not be of unit length.
   glm::dvec2 axis{0.0};
   // one_root
@@ -54,5 +55,9 @@ struct Certificate {
 // How far a piece reaches beyond the sub-triangle that it is searched for, on each side, as a part
 // of its size: a root on the border between two is well within the pieces of both.
 inline constexpr double kPieceMargin = 0.125;
+
+// Weights within a piece are computed from those of the patch, with some roundings over the size of
+// the smallest piece.
+inline constexpr double kWithinSlack = 1e-11;
 
 }  // namespace trisect

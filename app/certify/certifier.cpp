@@ -15,8 +15,8 @@ namespace {
 
 using glm::dvec3;
 
-// Divisions of each patch whose enclosures are kept in memory: 85 enclosures of 0.4 kilobytes,
-// fewer if there are very many patches.
+// Divisions of each patch whose enclosures are kept in memory: 85 of 0.4 kilobytes, and as much
+// again for the sphere surface; fewer if there are very many patches.
 int kept_divisions(std::size_t patches) {
   if (patches <= 10000) return 3;
   return patches <= 100000 ? 1 : 0;
@@ -27,7 +27,7 @@ int kept_divisions(std::size_t patches) {
 bool is_same(const TubeFindings::Root& a, const TubeFindings::Root& b) {
   const auto holds = [](const in_double::SubTriangle& piece, const TubeFindings::Root& root) {
     const dvec3 l = in_double::weights_in(piece, root.weights);
-    const double reach = root.weight_radius / std::abs(piece.size) + 1e-11;
+    const double reach = root.weight_radius / std::abs(piece.size) + kWithinSlack;
     return l.x - 2.0 * reach > 0.0 && l.y - reach > 0.0 && l.z - reach > 0.0;
   };
   return a.triangle == b.triangle && (holds(a.piece, b) || holds(b.piece, a));
@@ -55,7 +55,7 @@ std::pair<Reason, const TubeFindings::Root*> conclusion(const TubeFindings& find
   for (const TubeFindings::Open& other : findings.open) {
     if (open == nullptr || other.t < open->t) open = &other;
   }
-  if (open != nullptr && (first == nullptr || open->t <= first->t.hi)) {
+  if (open != nullptr && (first == nullptr || !(open->t > first->t.hi))) {
     return {reason_of(open->doubt), nullptr};
   }
   if (first == nullptr) {

@@ -20,7 +20,7 @@ namespace trisect {
 
 // Why an answer is what it is. The first four are proven.
 enum class Reason {
-  nothing_near,  // a miss: the ray passes the balls of all patches
+  nothing_near,  // a miss: the ray passes the boxes around all patches
   hulls,         // a miss: hulls of the pieces of all patches are off the ray
   contraction,   // a miss: hulls, and where they meet the ray Krawczyk's operator
   one_root,      // a hit: a single root by Krawczyk's operator, and nothing before it
@@ -64,8 +64,8 @@ constexpr bool is_proven(Reason reason) {
 
 struct CertifiedAnswer {
   Reason reason = Reason::nothing_near;
-  // If reason is one_root: where the ray in the tube's middle hits, up to roundings, and between
-  // which t all rays of the tube do.
+  // If reason is one_root: near where the ray in the tube's middle hits, and between which t all
+  // rays of the tube do.
   OracleRoot root{};
   Interval t;
 

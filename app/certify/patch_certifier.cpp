@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/base/rounding.h"
 #include "app/surface/sphere_range.h"
 #include "app/surface/to_double.h"
 
@@ -23,16 +24,9 @@ constexpr int kMostPieces = 4096;
 // Krawczyk's operator must contract by this at least: closer to 1 the radius around a root becomes
 // large for nothing.
 constexpr double kMostContraction = 0.9;
-// Weights within a piece are computed from those of the patch, with some roundings over the size of
-// the smallest piece.
-constexpr double kWithinSlack = 1e-11;
 // The least weight within a piece of the points of its core.
 constexpr double kCoreWeight = kPieceMargin / (1.0 + 3.0 * kPieceMargin);
 constexpr int kNewtonSteps = 12;
-
-double magnitude(const Interval& a) {
-  return std::max(std::abs(a.lo), std::abs(a.hi));
-}
 
 double middle_of(const Interval& a) {
   return 0.5 * a.lo + 0.5 * a.hi;
@@ -180,6 +174,8 @@ PatchCertifier::PatchCertifier(const SurfaceChoice& choice, const Triangle& tri,
       patch_(patch_of(choice.shell, tri)),
       shape_(shape_of(choice)),
       index_(index),
+      // A piece's weights beyond the patch add up to less than 2.
+      roundings_(gamma_double(200) * longest_of(patch_.P)),
       defined_(has_surface(tri)) {
   if (!defined_) return;
   // Hulls of second order: of the sphere surface alone, whose others are of first.
@@ -231,9 +227,16 @@ PatchCertifier::FlatPieces PatchCertifier::flat_pieces_of(const SubTriangle& sub
   return flat;
 }
 
+// extent_along() with room for the roundings of points of the patch, which do not cancel where the
+// points come near the scene's origin.
+Interval PatchCertifier::extent(const Enclosure& enclosure, const dvec3& origin,
+                                const dvec3& axis) const {
+  return extent_along(enclosure, origin, axis) + Interval(-roundings_, roundings_);
+}
+
 // The extents of both enclosures along an axis of about unit length, as far as they agree.
-Interval PatchCertifier::extent_of(const Node& node, const dvec3& origin, const dvec3& axis) {
-  const Interval a = extent_along(node.enclosure, origin, axis);
+Interval PatchCertifier::extent_of(const Node& node, const dvec3& origin, const dvec3& axis) const {
+  const Interval a = extent(node.enclosure, origin, axis);
   if (node.flat.points.empty()) return a;
   Enclosure flat{};
   Interval b(kInfinity, -kInfinity);
@@ -244,7 +247,7 @@ Interval PatchCertifier::extent_of(const Node& node, const dvec3& origin, const 
     flat.radius = node.flat.radius;
     std::copy_n(points.begin() + static_cast<std::ptrdiff_t>(first), flat.count,
                 flat.points.begin());
-    b = hull(b, extent_along(flat, origin, axis));
+    b = hull(b, extent(flat, origin, axis));
   }
   return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
 }
@@ -364,8 +367,8 @@ std::optional<Doubt> PatchCertifier::prove_by_tangents(const SubTriangle& core, 
   const dvec3 middle = exact_weights(in_double::centre_of(core));
   const Enclosure at_middle = enclose(choice_, patch_, {middle, 0.0});
   form.emplace(piece, *tangents, in_double::weights_in(piece, middle),
-               std::array{extent_along(at_middle, tube.origin, tube.across[0]),
-                          extent_along(at_middle, tube.origin, tube.across[1])});
+               std::array{extent(at_middle, tube.origin, tube.across[0]),
+                          extent(at_middle, tube.origin, tube.across[1])});
   Certificate hull{CertificateKind::hull, index_, core};
   if (form->prove_off(core, tube.radius, hull)) {
     if (findings.certificates != nullptr) findings.certificates->push_back(hull);
@@ -381,8 +384,8 @@ std::optional<Doubt> PatchCertifier::prove_by_tangents(const SubTriangle& core, 
   const Enclosure at = enclose(choice_, patch_, {center, 0.0});
   const Interval spread(-tube.radius, tube.radius);
   const std::array<Interval, 2> miss =
-      times(inverse, {extent_along(at, tube.origin, tube.across[0]) + spread,
-                      extent_along(at, tube.origin, tube.across[1]) + spread});
+      times(inverse, {extent(at, tube.origin, tube.across[0]) + spread,
+                      extent(at, tube.origin, tube.across[1]) + spread});
 
   const std::array<double, 2> place{within.y, within.z};
   std::array<Interval, 2> box;
@@ -404,6 +407,7 @@ std::optional<Doubt> PatchCertifier::prove_by_tangents(const SubTriangle& core, 
     return std::nullopt;
   }
 
+  if (!std::isfinite(magnitude(miss[0]) + magnitude(miss[1]))) return Doubt::nonsmooth;
   const double farthest = std::max(magnitude(miss[0]), magnitude(miss[1]));
   const double radius = divide_by_positive(farthest, 1.0 - Interval(factor)).hi;
   const double held = radius + kWithinSlack;
@@ -415,8 +419,9 @@ std::optional<Doubt> PatchCertifier::prove_by_tangents(const SubTriangle& core, 
                                                std::abs(inverse[0][1]) + std::abs(inverse[1][1]));
     if (!(wide > 0.5 * kCoreWeight)) return Doubt::fold;
     const bool is_inside = std::min({center.x, center.y, center.z}) > 2.0 * wide * piece_size;
-    const double t = extent_along(at, tube.origin, tube.direction).lo - magnitude(tangents->u[2]) -
-                     magnitude(tangents->v[2]);
+    const double t = (extent(at, tube.origin, tube.direction) - magnitude(tangents->u[2]) -
+                      magnitude(tangents->v[2]))
+                         .lo;
     findings.open.push_back({is_inside ? Doubt::fold : Doubt::border, t});
     findings.t_end = std::min(findings.t_end, t);
     return std::nullopt;
@@ -426,9 +431,10 @@ std::optional<Doubt> PatchCertifier::prove_by_tangents(const SubTriangle& core, 
                                  product_above(magnitude(tangents->v[2]), radius));
   certificate.kind = CertificateKind::one_root;
   certificate.piece = piece;
+  certificate.core = core;
   certificate.weights = center;
   certificate.weight_radius = product_above(piece_size, radius);
-  certificate.t = extent_along(at, tube.origin, tube.direction) + Interval(-along, along);
+  certificate.t = extent(at, tube.origin, tube.direction) + Interval(-along, along);
   proven();
   // The root of another core, or of none.
   if (is_off_core(about(within.y, held), about(within.z, held))) return std::nullopt;

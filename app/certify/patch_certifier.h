@@ -55,7 +55,7 @@ class MeanValueForm;
 // - or is proven to hold one root for every ray of the tube, or none, by Krawczyk's operator with
 //   the ranges of the tangents: Krawczyk 1969, "Newton-Algorithmen zur Bestimmung von Nullstellen
 //   mit Fehlerschranken"; Neumaier 1990, "Interval Methods for Systems of Equations", section 5.1;
-// - or is so small that it stays open.
+// - or is so small that it stays open, or hardly larger than the tube, or one of very many.
 class PatchCertifier {
  public:
   // Keeps the enclosures of `levels` divisions. tri: baked, as the kernels have it.
@@ -81,7 +81,10 @@ class PatchCertifier {
   [[nodiscard]] Node node_of(const in_double::SubTriangle& sub_triangle) const;
   [[nodiscard]] FlatPieces flat_pieces_of(const in_double::SubTriangle& sub_triangle,
                                           int divisions) const;
-  static Interval extent_of(const Node& node, const glm::dvec3& origin, const glm::dvec3& axis);
+  [[nodiscard]] Interval extent(const Enclosure& enclosure, const glm::dvec3& origin,
+                                const glm::dvec3& axis) const;
+  [[nodiscard]] Interval extent_of(const Node& node, const glm::dvec3& origin,
+                                   const glm::dvec3& axis) const;
   void visit(const Node& node, std::size_t index, int depth, const RayTube& tube,
              TubeFindings& findings) const;
   [[nodiscard]] bool is_off(const Node& node, const Interval& t, const RayTube& tube,
@@ -95,6 +98,7 @@ class PatchCertifier {
   Patch patch_;
   in_double::Shape shape_;
   uint32_t index_;
+  double roundings_;         // of a point of the patch, a length
   bool defined_;             // false: there is no surface (has_surface)
   std::vector<Node> nodes_;  // the children of node i are 4 i + 1 to 4 i + 4
 };

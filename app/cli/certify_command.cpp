@@ -60,10 +60,10 @@ void print(const ReasonCounts& counts, const CertifiedAnswers& answers, const st
         100.0 * static_cast<double>(counts[i]) / static_cast<double>(pixels), what,
         reason_name(reason));
   }
-  say("{}: {} hits and {} misses are proven right, {} wrong; {} pixels are open\n", who,
+  say("{}: {} hits and {} misses agree with the proofs, {} do not; {} pixels are open\n", who,
       answers.right_hits, answers.right_misses, answers.wrong.size(), answers.open);
   if (answers.right_hits > 0) {
-    say("the right hits are off by p50 {:.1e}, p99 {:.1e}, max {:.1e} of the scene's radius\n",
+    say("the hits that agree are off by p50 {:.1e}, p99 {:.1e}, max {:.1e} of the scene's radius\n",
         answers.off_surface.p50, answers.off_surface.p99, answers.off_surface.max);
   }
   for (std::size_t i = 0; i < std::min(answers.wrong.size(), kPrintedPixels); ++i) {

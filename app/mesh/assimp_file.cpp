@@ -153,6 +153,13 @@ class AssimpScene {
   std::size_t lines_ = 0;
 };
 
+// Without blanks around it.
+std::string_view trimmed(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return line.substr(first, line.find_last_not_of(" \t") + 1 - first);
+}
+
 // Throws InputError for a PLY file that cannot have what its head promises: Assimp takes any time
 // for one whose head does not end, or that promises much.
 void expect_whole_ply(std::string_view bytes, const std::string& name) {
@@ -161,9 +168,10 @@ void expect_whole_ply(std::string_view bytes, const std::string& name) {
   };
   std::size_t items = 0;
   for (std::string_view rest = bytes; !rest.empty();) {
-    const std::string_view line = rest.substr(0, rest.find_first_of("\r\n"));
-    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-    if (line.starts_with("end_header")) {
+    const std::string_view whole = rest.substr(0, rest.find_first_of("\r\n"));
+    rest.remove_prefix(std::min(whole.size() + 1, rest.size()));
+    const std::string_view line = trimmed(whole);
+    if (line == "end_header") {
       // Each has a byte at least.
       if (items <= rest.size()) return;
       refuse("it ends before the elements that its head promises");

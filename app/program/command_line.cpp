@@ -45,11 +45,9 @@ Added<Values> add_command(CLI::App& app, const std::string& name, const std::str
   return {*command, std::make_shared<Values>()};
 }
 
-// Adds --quiet to a command or, if it has some, to its own. (A group of options is one without a
-// name.)
+// Adds --quiet to a command or, if it has some, to its own.
 void add_quiet(CLI::App& command) {
-  const std::vector<CLI::App*> own =
-      command.get_subcommands([](const CLI::App* sub) { return !sub->get_name().empty(); });
+  const std::vector<CLI::App*> own = command.get_subcommands({});
   for (CLI::App* sub : own) add_quiet(*sub);
   if (own.empty()) {
     command.add_flag_callback("-q,--quiet", be_quiet, "Say nothing but what is wrong")
@@ -307,20 +305,29 @@ Command add_export(CLI::App& app) {
   add_mesh_options(command, options.mesh);
   add_surface(command, options.surface);
   add_alpha(command, options.alpha);
-  CLI::Option_group* how = command.add_option_group("how fine");
-  how->add_option("--subdivide", options.subdivide, "N x N flat triangles for each of the model's")
-      ->group(option_group::kSurface)
-      ->check(number_from_to(1, 4000))
-      ->type_name("N");
-  how->add_option("--error", options.error,
+  // Not a group of CLI11's, of which one must be given: after one of those an empty word never
+  // ends.
+  CLI::Option* subdivide = command
+                               .add_option("--subdivide", options.subdivide,
+                                           "N x N flat triangles for each of the model's")
+                               ->group(option_group::kSurface)
+                               ->check(number_from_to(1, 4000))
+                               ->type_name("N");
+  command
+      .add_option("--error", options.error,
                   "As many as it takes to be off the surface by no more than this, in the model's "
                   "units")
       ->group(option_group::kSurface)
       ->check(number_from_to(1e-300, 1e9))
+      ->excludes(subdivide)
       ->type_name("EPS");
-  how->require_option(1);
   add_json(command, options.json, "Write the figures as JSON");
-  return {&command, [values = values] { return export_mesh(*values); }};
+  return {&command, [values = values] {
+            if (!values->subdivide && !values->error) {
+              throw UsageError("--subdivide or --error is required (see trisect --help)");
+            }
+            return export_mesh(*values);
+          }};
 }
 
 // Adds MODEL and what its surface is to a command that exchanges rays.

@@ -68,21 +68,19 @@ CommandPage command_page(const CLI::App& app) {
   page.path = path_of(app);
   page.summary = app.get_description();
   for (const CLI::Option* option : app.get_options()) page.options.push_back(option_page(*option));
-  // A group of CLI11's, of which one option must be given, is a command without a name.
+  for (const CLI::App* sub : app.get_subcommands({})) page.commands.push_back(command_page(*sub));
+  // Of options that exclude each other one is required.
   std::vector<std::string> choices;
-  for (const CLI::App* sub : app.get_subcommands({})) {
-    if (!sub->get_name().empty()) {
-      page.commands.push_back(command_page(*sub));
-      continue;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const CLI::Option* other : option->get_excludes()) {
+      // Each names the other.
+      const std::vector<const CLI::Option*>& all = app.get_options();
+      if (std::find(all.begin(), all.end(), option) > std::find(all.begin(), all.end(), other)) {
+        continue;
+      }
+      choices.push_back(fmt::format("{} | {}", short_form(option_page(*option)),
+                                    short_form(option_page(*other))));
     }
-    std::vector<std::string> forms;
-    for (const CLI::Option* option : sub->get_options()) {
-      // CLI11 gives the group its own --help.
-      if (option == sub->get_help_ptr()) continue;
-      page.options.push_back(option_page(*option));
-      forms.push_back(short_form(page.options.back()));
-    }
-    choices.push_back(fmt::format("{}", fmt::join(forms, " | ")));
   }
   page.usage = usage_of(page, choices);
   return page;

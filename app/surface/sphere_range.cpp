@@ -232,6 +232,17 @@ bool is_bounded(const Interval& a) {
   return a.lo > -1e-3 * in_double::UNBOUNDED && a.hi < 1e-3 * in_double::UNBOUNDED;
 }
 
+// Whether a bound of the height's change is known. Asked before anything is multiplied by what
+// stands for infinity.
+bool has_bounded_change(const Patch& patch, const HeightRange& h) {
+  if (!is_bounded(h.rate)) return false;
+  for (std::size_t k = 1; k < 3; ++k) {
+    const dvec3 dT = patch.P[k] - patch.P[0];
+    if (!is_bounded(in_double::height_change(h, dT, patch.D[k] - patch.D[0]))) return false;
+  }
+  return true;
+}
+
 std::array<HeightRange, 3> height_ranges(const Patch& patch, const SphereOverSubTriangle& over) {
   return {height_range(patch, 0, over), height_range(patch, 1, over), height_range(patch, 2, over)};
 }
@@ -284,7 +295,7 @@ std::optional<SigmaRanges> sphere_change_ranges(const Patch& patch, const Corner
   SigmaRanges sigma = nothing_added();
   for (std::size_t i = 0; i < 3; ++i) {
     const HeightRange h = height_range(patch, i, over);
-    if (!has_root(h)) return std::nullopt;
+    if (!has_root(h) || !has_bounded_change(patch, h)) return std::nullopt;
     add_height(patch, i, h, over, sigma);
   }
   if (!is_bounded(sigma.s) || !is_bounded(sigma.u) || !is_bounded(sigma.v)) return std::nullopt;

@@ -16,10 +16,6 @@ using glm::dvec3;
 // Relative to the sizes of what is added up: each figure comes of fewer than a hundred roundings.
 constexpr double kSlack = gamma_double(900);
 
-double magnitude(const Interval& a) {
-  return std::max(std::abs(a.lo), std::abs(a.hi));
-}
-
 Interval grown(const Interval& a, double by) {
   return {a.lo - by, a.hi + by};
 }
@@ -45,6 +41,15 @@ Interval range_along(const std::array<dvec3, count>& vectors, const dvec3& axis,
   return range_of(values, slack);
 }
 
+// The largest sum of the sizes of a corner's weights: 1 within the patch, more beyond.
+double largest_weights(const CornerWeights& weights) {
+  double largest = 1.0;
+  for (const dvec3& w : weights) {
+    largest = std::max(largest, std::abs(w.x) + std::abs(w.y) + std::abs(w.z));
+  }
+  return largest;
+}
+
 bool is_finite(const TangentRanges& ranges) {
   const auto finite = [](const Interval& a) { return std::isfinite(a.lo) && std::isfinite(a.hi); };
   return std::all_of(ranges.u.begin(), ranges.u.end(), finite) &&
@@ -54,10 +59,11 @@ bool is_finite(const TangentRanges& ranges) {
 // S_u = dT + D sigma_u + dD sigma, the derivatives by the weights of the patch, times the
 // sub-triangle's size.
 TangentRanges from_sigma(const Patch& patch, const in_double::SubTriangle& sub_triangle,
-                         const PatchCorners& corners, const SigmaRanges& sigma,
-                         const std::array<dvec3, 3>& axes) {
+                         const CornerWeights& weights, const PatchCorners& corners,
+                         const SigmaRanges& sigma, const std::array<dvec3, 3>& axes) {
   const double size = sub_triangle.size;
-  const double widest = longest_of(corners.D);
+  // Directions may cancel, their roundings do not.
+  const double widest = longest_of(patch.D) * largest_weights(weights);
   const auto along = [&](std::size_t vertex, const Interval& slope, const dvec3& axis) {
     const dvec3 dT = patch.P[vertex] - patch.P[0];
     const dvec3 dD = patch.D[vertex] - patch.D[0];
@@ -101,10 +107,7 @@ std::optional<SigmaRanges> height_shell_ranges(const Patch& patch, double alpha,
   const Quadratic<dvec3> K = quadratic_over(weights, products);
   const auto dot = [](const dvec3& a, const dvec3& b) { return glm::dot(a, b); };
   // Every vector of K is a sum of products as long as an edge, with weights of at most a few.
-  double weight = 1.0;
-  for (const dvec3& w : weights) {
-    weight = std::max(weight, std::abs(w.x) + std::abs(w.y) + std::abs(w.z));
-  }
+  const double weight = largest_weights(weights);
   const double K_size = 2.0 * patch.longest * weight * weight;
   const double D_size = longest_of(patch.D) * weight;
   const Interval DK = range_of(cubic_of(K, D, dot), kSlack * K_size * D_size);
@@ -145,8 +148,9 @@ std::optional<TangentRanges> tangent_ranges(const SurfaceChoice& choice, const P
   }
   const bool is_cubic = choice.surface == SURFACE_PHONG && choice.shell == SHELL_NORMAL;
   if (!is_cubic && !sigma) return std::nullopt;
-  const TangentRanges ranges = is_cubic ? of_cubic(patch, choice.alpha, sub_triangle, corners, axes)
-                                        : from_sigma(patch, sub_triangle, corners, *sigma, axes);
+  const TangentRanges ranges =
+      is_cubic ? of_cubic(patch, choice.alpha, sub_triangle, corners, axes)
+               : from_sigma(patch, sub_triangle, weights, corners, *sigma, axes);
   if (!is_finite(ranges)) return std::nullopt;
   return ranges;
 }

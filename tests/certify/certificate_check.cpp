@@ -199,12 +199,10 @@ class Check {
       const Weights w = piece.out(Real(i) / n, Real(j) / n);
       return dot(surface_.point(w) - origin_, along);
     };
-    if (!surface_.is_cubic()) {
-      for (const auto& [i, j] : points()) {
-        if (value(i, j, kPoints) <= bound) return Opinion::refuted;
-      }
-      return Opinion::supported;
+    for (const auto& [i, j] : points()) {
+      if (value(i, j, kPoints) <= bound) return Opinion::refuted;
     }
+    if (!surface_.is_cubic()) return Opinion::supported;
     // The cubic's Bernstein coefficients from its values where the weights are thirds.
     const auto at = [&](int i, int j) { return value(i, j, 3); };
     std::array<Real, 10> b;
@@ -224,7 +222,7 @@ class Check {
     for (std::size_t k = 3; k < 9; ++k) edges += b[k];
     b[9] = (27 * at(1, 1) - (b[0] + b[1] + b[2]) - 3 * edges) / 6;
     for (const Real& coefficient : b) {
-      if (coefficient <= bound) return Opinion::refuted;
+      if (coefficient <= bound) return Opinion::supported;
     }
     return Opinion::proven;
   }

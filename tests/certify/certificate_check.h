@@ -15,11 +15,10 @@ enum class Opinion {
 };
 
 // What is tried:
-// - hull, before and behind: of surfaces with polynomial coordinates all Bernstein coefficients
-// must
-//   be on the side that is claimed, which proves it; of others, 16 points.
-// - no_root: Newton's method, for the ray in the middle and the four at the tube's edges, must find
-//   no root in the core; nor may one of 16 points lie in the tube.
+// - hull, before and behind: 16 points must be on the side that is claimed. If the coordinates are
+//   polynomials and all Bernstein coefficients are on it, too, that proves it.
+// - no_root: none of 16 points may lie in the tube, and for the ray in the middle and the four at
+//   the tube's edges Newton's method must find no root in the core.
 // - one_root: for each of the five, Newton's method must find a root that lies, like its t, within
 //   what is claimed; and from the piece's corners no other root in the piece.
 //

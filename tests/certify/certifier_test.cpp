@@ -15,6 +15,7 @@
 #include "app/stress/stress_scenes.h"
 #include "app/surface/to_double.h"
 #include "tests/certify/certificate_check.h"
+#include "tests/certify/pixel_proof.h"
 #include "tests/support/scenes.h"
 
 namespace trisect {
@@ -190,9 +191,11 @@ TEST(Certifier, SaysWhyAnAnswerIsOpen) {
   EXPECT_TRUE(is_proven(reason(rim * 1.01 - 3.0 * along, along)));
 }
 
-// A second opinion in fifty digits refutes none of the certificates of a picture, and finds every
-// root that is claimed. scripts/certify.sh has a million of each model.
-TEST(Certificates, HoldInFiftyDigits) {
+// A second opinion in fifty digits refutes none of the certificates of a picture, of which every
+// other pixel's ray begins behind its first hit, and together they prove its answer.
+// scripts/certify.sh has a million of each model.
+TEST(Certificates, HoldInFiftyDigitsAndLeaveNoGap) {
+  std::array<std::size_t, 5> kinds{};
   for (const SurfaceChoice& choice : kChoices) {
     SCOPED_TRACE(testing::Message() << "surface " << choice.surface << " shell " << choice.shell);
     const Picture picture("torus", choice, 24);
@@ -200,21 +203,30 @@ TEST(Certificates, HoldInFiftyDigits) {
     std::array<std::array<std::size_t, 4>, 5> counts{};
     const double radius = kMotion * static_cast<double>(picture.params.anchor.w);
     std::size_t number = 0;
+    std::size_t proven = 0;
     for (uint32_t y = 0; y < 24; ++y) {
       for (uint32_t x = 0; x < 24; ++x) {
-        const OracleRay ray = oracle_pixel_ray(picture.params, x, y).ray;
+        OracleRay ray = oracle_pixel_ray(picture.params, x, y).ray;
+        const CertifiedAnswer front = certifier.first(ray, radius);
+        if (x % 2 == 1 && front.reason == Reason::one_root) ray.t_min = front.t.hi + 0.01;
         std::vector<Certificate> certificates;
-        static_cast<void>(certifier.first(ray, radius, &certificates));
+        const CertifiedAnswer answer = certifier.first(ray, radius, &certificates);
+        const RayTube tube = tube_around(ray, radius);
+        if (is_proven(answer.reason)) {
+          ++proven;
+          EXPECT_EQ(test::gap_in(certificates, answer, tube, picture.scene.triangles), "");
+        }
         for (const Certificate& certificate : certificates) {
           if (++number % 13 != 0) continue;
-          const Opinion opinion =
-              test::opinion_on(certificate, tube_around(ray, radius), with_single_alpha(choice),
-                               picture.scene.triangles[certificate.triangle]);
+          const Opinion opinion = test::opinion_on(certificate, tube, with_single_alpha(choice),
+                                                   picture.scene.triangles[certificate.triangle]);
+          ++kinds.at(static_cast<std::size_t>(certificate.kind));
           ++counts.at(static_cast<std::size_t>(certificate.kind))
                 .at(static_cast<std::size_t>(opinion));
         }
       }
     }
+    EXPECT_GT(proven, 570U);
     for (const auto& of_kind : counts) {
       EXPECT_EQ(of_kind[static_cast<std::size_t>(Opinion::refuted)], 0U);
     }
@@ -225,6 +237,81 @@ TEST(Certificates, HoldInFiftyDigits) {
                                                                   : Opinion::supported)],
               50U);
   }
+  for (const std::size_t count : kinds) EXPECT_GT(count, 10U);
+}
+
+// Roundings do not vanish where the surface passes the scene's origin and the ray begins there.
+TEST(Certificates, HoldNearTheScenesOrigin) {
+  std::mt19937_64 random(43);
+  std::size_t roots = 0;
+  for (const SurfaceChoice& choice : kChoices) {
+    SCOPED_TRACE(testing::Message() << "surface " << choice.surface << " shell " << choice.shell);
+    for (int i = 0; i < 60; ++i) {
+      test::RandomPatch patch = test::random_patch(random, 10.0);
+      const dvec3 w = test::random_weights(random);
+      const dvec3 point =
+          patch.positions[0] * w.x + patch.positions[1] * w.y + patch.positions[2] * w.z;
+      for (dvec3& position : patch.positions) position -= point;
+      BakedScene scene;
+      scene.choice = choice;
+      scene.triangles.push_back(bake_triangle(patch.positions, patch.normals, choice));
+      const OracleRay ray{dvec3(0.0), stress::any_direction(random), -1.0};
+      std::vector<Certificate> certificates;
+      static_cast<void>(Certifier(scene).first(ray, 0.0, &certificates));
+      for (const Certificate& certificate : certificates) {
+        if (certificate.kind == CertificateKind::one_root) ++roots;
+        EXPECT_NE(test::opinion_on(certificate, tube_around(ray, 0.0), with_single_alpha(choice),
+                                   scene.triangles[0]),
+                  Opinion::refuted)
+            << i;
+      }
+    }
+  }
+  EXPECT_GT(roots, 150U);
+}
+
+// A proof that lacks a certificate, or rests on the wrong one, has a gap.
+TEST(Certificates, LeaveAGapIfOneIsMissingOrBelongsElsewhere) {
+  const Picture picture("sphere-20", kChoices[1], 24);
+  const Certifier certifier(picture.scene);
+  const double radius = kMotion * static_cast<double>(picture.params.anchor.w);
+  const OracleRay ray = oracle_pixel_ray(picture.params, 11, 12).ray;
+  const RayTube tube = tube_around(ray, radius);
+  std::vector<Certificate> certificates;
+  const CertifiedAnswer answer = certifier.first(ray, radius, &certificates);
+  ASSERT_EQ(answer.reason, Reason::one_root);
+  const auto gap = [&](const std::vector<Certificate>& some, const CertifiedAnswer& claim) {
+    return test::gap_in(some, claim, tube, picture.scene.triangles);
+  };
+  ASSERT_EQ(gap(certificates, answer), "");
+  std::size_t behind = 0;
+  std::size_t needed = 0;
+  for (std::size_t i = 0; i < certificates.size(); ++i) {
+    std::vector<Certificate> fewer = certificates;
+    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
+    if (gap(fewer, answer).empty()) {
+      // Of a triangle whose box alone is met, which none of its certificates is needed for.
+      std::erase_if(fewer, [&](const Certificate& other) {
+        return other.triangle == certificates[i].triangle;
+      });
+      EXPECT_EQ(gap(fewer, answer), "") << i;
+    } else {
+      ++needed;
+    }
+    if (certificates[i].kind != CertificateKind::behind) continue;
+    ++behind;
+    std::vector<Certificate> nearer = certificates;
+    nearer[i].t.lo -= 0.1;
+    EXPECT_EQ(gap(nearer, answer), "what is left out may be nearer");
+  }
+  EXPECT_GT(behind, 0U);
+  EXPECT_GT(needed, 10U);
+  CertifiedAnswer other = answer;
+  other.reason = Reason::hulls;
+  EXPECT_EQ(gap(certificates, other), "there is a root");
+  other = answer;
+  other.root.triangle += 1;
+  EXPECT_EQ(gap(certificates, other), "the answer's root is none");
 }
 
 // Certificates with a mistake in them are refuted: a piece that reaches into the tube, the other
@@ -250,6 +337,9 @@ TEST(Certificates, AreRefutedIfTheyAreWrong) {
       Certificate wrong = right;
       if (right.kind == CertificateKind::hull) {
         wrong.axis = -right.axis;
+        EXPECT_EQ(opinion(wrong), Opinion::refuted);
+        wrong = right;
+        wrong.kind = CertificateKind::before;
         EXPECT_EQ(opinion(wrong), Opinion::refuted);
       }
       if (right.kind == CertificateKind::one_root) {

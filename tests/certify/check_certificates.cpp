@@ -1,8 +1,9 @@
 // Gives a second opinion on the certificates that prove what the pixels of an image show:
 //   check-certificates MODEL SURFACE SHELL SIZE COUNT
 // SURFACE: flat, phong or sphere. SHELL: normal or height. SIZE: the image's width and height.
-// COUNT: how many of its certificates are looked at, spread evenly over them. Prints a row of a
-// Markdown table, and the first that are refuted to standard error. Ends with 1 if there are some.
+// COUNT: how many of its certificates are looked at, spread evenly over them. Whether those of a
+// pixel together prove its answer is looked at for every pixel. Prints a row of a Markdown table,
+// and the first that are refuted or leave a gap to standard error. Ends with 1 if there are some.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,6 +24,7 @@
 #include "app/oracle/oracle_tracer.h"
 #include "app/surface/to_double.h"
 #include "tests/certify/certificate_check.h"
+#include "tests/certify/pixel_proof.h"
 
 namespace trisect::test {
 namespace {
@@ -45,31 +47,22 @@ struct Counts {
   }
 };
 
-// Calls each(number, certificate, tube) for every certificate of the image; numbers count those of
-// a row from where `first` says. Returns how many each row has.
+// Calls each(row, certificates, answer, tube) for every pixel of the image, on several threads, in
+// the order of a row's pixels.
 template <typename Each>
-std::vector<std::size_t> for_each_certificate(const Certifier& certifier, const TraceParams& params,
-                                              const std::vector<std::size_t>& first,
-                                              const Each& each) {
+void for_each_pixel(const Certifier& certifier, const TraceParams& params, const Each& each) {
   const double radius = kMotion * static_cast<double>(params.anchor.w);
-  std::vector<std::size_t> counts(params.height);
   parallel_rows(params.height,
                 [&](uint32_t y) {
                   std::vector<Certificate> certificates;
-                  std::size_t number = first.empty() ? 0 : first[y];
                   for (uint32_t x = 0; x < params.width; ++x) {
                     const OracleRay ray = oracle_pixel_ray(params, x, y).ray;
                     certificates.clear();
-                    static_cast<void>(certifier.first(ray, radius, &certificates));
-                    const RayTube tube = tube_around(ray, radius);
-                    for (const Certificate& certificate : certificates) {
-                      each(number++, certificate, tube);
-                    }
-                    counts[y] += certificates.size();
+                    const CertifiedAnswer answer = certifier.first(ray, radius, &certificates);
+                    each(y, certificates, answer, tube_around(ray, radius));
                   }
                 },
                 {});
-  return counts;
 }
 
 int check(const std::string& model, const SurfaceChoice& choice, uint32_t size, std::size_t count) {
@@ -79,43 +72,58 @@ int check(const std::string& model, const SurfaceChoice& choice, uint32_t size, 
   const Certifier certifier(scene);
   const SurfaceChoice kernels_choice = with_single_alpha(choice);
 
-  const std::vector<std::size_t> rows = for_each_certificate(
-      certifier, params, {}, [](std::size_t, const Certificate&, const RayTube&) {});
-  std::vector<std::size_t> first;
-  std::size_t all = 0;
-  for (const std::size_t row : rows) {
-    first.push_back(all);
-    all += row;
-  }
+  // The numbers of the certificates before a row.
+  std::vector<std::size_t> before(params.height + 1);
+  std::mutex printing;
+  int printed = 0;
+  const auto complain = [&](const std::string& what) {
+    const std::lock_guard lock(printing);
+    if (++printed <= 10) fmt::print(stderr, "{}: {}\n", model, what);
+  };
+  std::atomic<std::size_t> proven_pixels = 0;
+  std::atomic<std::size_t> gaps = 0;
+  for_each_pixel(certifier, params,
+                 [&](uint32_t y, const std::vector<Certificate>& certificates,
+                     const CertifiedAnswer& answer, const RayTube& tube) {
+                   before[y + 1] += certificates.size();
+                   if (!is_proven(answer.reason)) return;
+                   ++proven_pixels;
+                   const std::string gap = gap_in(certificates, answer, tube, scene.triangles);
+                   if (gap.empty()) return;
+                   ++gaps;
+                   complain(fmt::format("a proof in row {} has a gap: {}", y, gap));
+                 });
+  for (uint32_t y = 0; y < params.height; ++y) before[y + 1] += before[y];
+  const std::size_t all = before.back();
   const std::size_t stride = std::max<std::size_t>(1, all / std::max<std::size_t>(1, count));
 
   Counts counts{};
-  std::mutex printing;
-  int printed = 0;
-  for_each_certificate(
-      certifier, params, first,
-      [&](std::size_t number, const Certificate& certificate, const RayTube& tube) {
-        if (number % stride != 0) return;
-        const Opinion opinion =
-            opinion_on(certificate, tube, kernels_choice, scene.triangles[certificate.triangle]);
-        const auto kind = static_cast<std::size_t>(certificate.kind);
-        ++counts.of[kind][static_cast<std::size_t>(opinion)];
-        if (opinion != Opinion::refuted) return;
-        const std::lock_guard lock(printing);
-        if (++printed > 10) return;
-        fmt::print(stderr, "{}: certificate {} ({}) of triangle {} is refuted\n", model, number,
-                   kKinds[kind], certificate.triangle);
-      });
+  for_each_pixel(certifier, params,
+                 [&](uint32_t y, const std::vector<Certificate>& certificates,
+                     const CertifiedAnswer&, const RayTube& tube) {
+                   for (const Certificate& certificate : certificates) {
+                     const std::size_t number = before[y]++;
+                     if (number % stride != 0) continue;
+                     const Opinion opinion = opinion_on(certificate, tube, kernels_choice,
+                                                        scene.triangles[certificate.triangle]);
+                     const auto kind = static_cast<std::size_t>(certificate.kind);
+                     ++counts.of[kind][static_cast<std::size_t>(opinion)];
+                     if (opinion == Opinion::refuted) {
+                       complain(fmt::format("certificate {} ({}) of triangle {} is refuted", number,
+                                            kKinds[kind], certificate.triangle));
+                     }
+                   }
+                 });
 
-  fmt::print("| {} | {} | {} | {} |", model_name(model), surface_name(choice.surface),
-             shell_name(choice.shell), all);
+  fmt::print("| {} | {} | {} | {} | {} | {} |", model_name(model), surface_name(choice.surface),
+             shell_name(choice.shell), proven_pixels, gaps, all);
   for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
     fmt::print(" {} |", counts.of_kind(kind));
   }
   fmt::print(" {} | {} | {} | {} |\n", counts.with(Opinion::proven),
              counts.with(Opinion::supported), counts.with(Opinion::unknown),
              counts.with(Opinion::refuted));
-  return counts.with(Opinion::refuted) == 0 ? 0 : 1;
+  return counts.with(Opinion::refuted) + gaps == 0 ? 0 : 1;
 }
 
 SurfaceChoice choice_of(const std::string& surface, const std::string& shell) {
