@@ -77,16 +77,32 @@ RayTube tube_around(const OracleRay& ray, double radius) {
   return {ray.origin, ray.direction, {line.across[0], line.across[1]}, ray.t_min, radius};
 }
 
-Certifier::Certifier(const BakedScene& scene)
+Certifier::Certifier(const BakedScene& scene) : Certifier(scene, Progress{}) {}
+
+std::optional<Certifier> Certifier::make(const BakedScene& scene, const Progress& progress) {
+  Certifier certifier(scene, progress);
+  if (!certifier.is_whole_) return std::nullopt;
+  return certifier;
+}
+
+Certifier::Certifier(const BakedScene& scene, const Progress& progress)
     : choice_(with_single_alpha(scene.choice)), triangles_(scene.triangles) {
+  const int divisions = kept_divisions(triangles_.size());
+  expect_memory(
+      static_cast<double>(triangles_.size()) * PatchCertifier::bytes_of(choice_, divisions),
+      fmt::format("the enclosures of {} patches", triangles_.size()));
+  patches_.resize(triangles_.size());
+  const auto enclose = [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      patches_[i] = PatchCertifier(choice_, triangles_[i], static_cast<uint32_t>(i), divisions);
+    }
+  };
+  // They take up to some milliseconds each.
+  constexpr std::size_t chunk = 16;
+  is_whole_ = parallel_chunks(triangles_.size(), chunk, enclose, progress);
   std::vector<Box> boxes;
   boxes.reserve(triangles_.size());
-  patches_.reserve(triangles_.size());
-  const int divisions = kept_divisions(triangles_.size());
-  for (uint32_t i = 0; i < triangles_.size(); ++i) {
-    boxes.push_back(box_around_ball(glm::dvec4(triangles_[i].Domain)));
-    patches_.emplace_back(choice_, triangles_[i], i, divisions);
-  }
+  for (const Triangle& tri : triangles_) boxes.push_back(box_around_ball(glm::dvec4(tri.Domain)));
   tree_ = BoxTree(boxes);
 }
 
@@ -122,14 +138,13 @@ CertifiedAnswer Certifier::first(const OracleRay& ray, double radius,
   return answer;
 }
 
-std::optional<CertifiedFrame> certify_frame(const BakedScene& scene, const TraceParams& params,
+std::optional<CertifiedFrame> certify_frame(const Certifier& certifier, const TraceParams& params,
                                             const Progress& progress) {
   CertifiedFrame frame{params.width, params.height, {}};
   const std::size_t pixels = std::size_t{params.width} * params.height;
   expect_memory(static_cast<double>(pixels) * sizeof(CertifiedAnswer),
                 fmt::format("the proofs of {}x{} pixels", params.width, params.height));
   frame.pixels.resize(pixels);
-  const Certifier certifier(scene);
   const double radius = kMotion * static_cast<double>(params.anchor.w);
   const auto row = [&](uint32_t y, const Stopped& stopped) {
     for (uint32_t x = 0; x < params.width && !stopped; ++x) {

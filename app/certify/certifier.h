@@ -79,8 +79,11 @@ struct CertifiedAnswer {
 // arithmetic. Both sides of a triangle are hit.
 class Certifier {
  public:
-  // Keeps no reference.
+  // Keeps no reference. Encloses the patches, on all cores. Throws OutOfMemory.
   explicit Certifier(const BakedScene& scene);
+  // The same; progress counts patches, as parallel_chunks has it, and nothing is returned if it
+  // stops the work.
+  static std::optional<Certifier> make(const BakedScene& scene, const Progress& progress);
 
   // For all rays within `radius` of this one, which has no end (t_max is not used). Adds the
   // certificates that it needed to `certificates`, if set. Safe to call from several threads.
@@ -88,10 +91,13 @@ class Certifier {
                                       std::vector<Certificate>* certificates = nullptr) const;
 
  private:
+  Certifier(const BakedScene& scene, const Progress& progress);
+
   SurfaceChoice choice_;
   std::vector<Triangle> triangles_;
   std::vector<PatchCertifier> patches_;
   BoxTree tree_;
+  bool is_whole_ = true;
 };
 
 // The tube around a ray.
@@ -106,7 +112,7 @@ struct CertifiedFrame {
 // The pixels of an image, on all cores: the tube of each is as wide as a ray may move without that
 // an answer of the oracle's counts as decidable (kMotion). progress counts rows, as parallel_rows
 // has it; nothing is returned if it stops the work.
-std::optional<CertifiedFrame> certify_frame(const BakedScene& scene, const TraceParams& params,
+std::optional<CertifiedFrame> certify_frame(const Certifier& certifier, const TraceParams& params,
                                             const Progress& progress);
 
 }  // namespace trisect

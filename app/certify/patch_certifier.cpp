@@ -199,6 +199,13 @@ PatchCertifier::PatchCertifier(const SurfaceChoice& choice, const Triangle& tri,
   }
 }
 
+double PatchCertifier::bytes_of(const SurfaceChoice& choice, int levels) {
+  const double nodes = (std::pow(4.0, levels + 1) - 1.0) / 3.0;
+  // Of the sphere surface up to fifteen points, and some room that the vector keeps.
+  const double points = choice.surface == SURFACE_SPHERE ? 16.0 * sizeof(dvec3) : 0.0;
+  return sizeof(PatchCertifier) + nodes * (sizeof(Node) + points);
+}
+
 PatchCertifier::Node PatchCertifier::node_of(const SubTriangle& sub_triangle) const {
   return {sub_triangle, enclose(choice_, patch_, sub_triangle), {}};
 }

@@ -58,8 +58,13 @@ class MeanValueForm;
 // - or is so small that it stays open, or hardly larger than the tube, or one of very many.
 class PatchCertifier {
  public:
+  // Without a surface.
+  PatchCertifier() = default;
   // Keeps the enclosures of `levels` divisions. tri: baked, as the kernels have it.
   PatchCertifier(const SurfaceChoice& choice, const Triangle& tri, uint32_t index, int levels);
+
+  // What one takes, about.
+  static double bytes_of(const SurfaceChoice& choice, int levels);
 
   // Adds what it finds. Safe to call from several threads, each with findings of its own.
   void search(const RayTube& tube, TubeFindings& findings) const;
@@ -95,11 +100,11 @@ class PatchCertifier {
                                                        std::optional<MeanValueForm>& form) const;
 
   SurfaceChoice choice_;
-  Patch patch_;
-  in_double::Shape shape_;
-  uint32_t index_;
-  double roundings_;         // of a point of the patch, a length
-  bool defined_;             // false: there is no surface (has_surface)
+  Patch patch_{};
+  in_double::Shape shape_{};
+  uint32_t index_ = 0;
+  double roundings_ = 0.0;   // of a point of the patch, a length
+  bool defined_ = false;     // false: there is no surface (has_surface)
   std::vector<Node> nodes_;  // the children of node i are 4 i + 1 to 4 i + 4
 };
 

@@ -120,10 +120,14 @@ int certify(const CertifyOptions& options) {
       loaded.scene, loaded.params, {render.solver, true, false, accel, false});
 
   const Stopwatch watch;
+  const Certifier certifier = [&] {
+    ProgressLine line("enclosing the patches", loaded.scene.triangles.size());
+    return finished(Certifier::make(loaded.scene, [&](uint32_t done) { return line.show(done); }));
+  }();
   const CertifiedFrame proofs = [&] {
     ProgressLine line("proving", loaded.params.height);
     return finished(
-        certify_frame(loaded.scene, loaded.params, [&](uint32_t done) { return line.show(done); }));
+        certify_frame(certifier, loaded.params, [&](uint32_t done) { return line.show(done); }));
   }();
   const double milliseconds = watch.milliseconds();
   const CertifiedAnswers answers = judge_answers(traced.frame, proofs, loaded.scene, loaded.params);

@@ -110,7 +110,7 @@ TEST(Certifier, ProvesNearlyEveryPixel) {
       const Mesh mesh = test::load_asset(asset);
       const BakedScene scene = bake_with_subpatches(mesh, choice);
       const TraceParams params = make_params(scene, framed_settings(mesh, scene, 64, 64));
-      const CertifiedFrame proofs = *certify_frame(scene, params, {});
+      const CertifiedFrame proofs = *certify_frame(Certifier(scene), params, {});
       Frame frame;
       ASSERT_TRUE(trace_on_cpu(scene, params, {SOLVER_ROBUST, true, false}, frame,
                                [](uint32_t) { return true; }));
@@ -129,7 +129,7 @@ TEST(Certifier, FindsWrongAnswers) {
   const Mesh mesh = test::load_asset("sphere-20");
   const BakedScene scene = bake_with_subpatches(mesh, kChoices[1]);
   const TraceParams params = make_params(scene, framed_settings(mesh, scene, 32, 32));
-  const CertifiedFrame proofs = *certify_frame(scene, params, {});
+  const CertifiedFrame proofs = *certify_frame(Certifier(scene), params, {});
   Frame frame;
   ASSERT_TRUE(trace_on_cpu(scene, params, {SOLVER_ROBUST, true, false}, frame,
                            [](uint32_t) { return true; }));
