@@ -168,6 +168,11 @@ void TubeFindings::clear() {
   used_tangents = false;
 }
 
+void TubeFindings::leave_open(Doubt doubt, double t) {
+  open.push_back({doubt, t});
+  t_end = std::min(t_end, t);
+}
+
 PatchCertifier::PatchCertifier(const SurfaceChoice& choice, const Triangle& tri, uint32_t index,
                                int levels)
     : choice_(choice),
@@ -274,8 +279,7 @@ void PatchCertifier::visit(const Node& node, std::size_t index, int depth, const
   const std::optional<Doubt> doubt = prove_by_tangents(node.sub_triangle, tube, findings, form);
   if (!doubt) return;
   if (depth == kDeepest || findings.pieces >= kMostPieces) {
-    findings.open.push_back({*doubt, t.lo});
-    findings.t_end = std::min(findings.t_end, t.lo);
+    leave_open(node.sub_triangle, *doubt, t.lo, findings);
     return;
   }
   const std::array<SubTriangle, 4> children = quarter(node.sub_triangle);
@@ -290,6 +294,16 @@ void PatchCertifier::visit(const Node& node, std::size_t index, int depth, const
       visit(node_of(children[k]), nodes_.size(), depth + 1, tube, findings);
     }
   }
+}
+
+// What lies behind an answer may stay open: that it does is a certificate.
+void PatchCertifier::leave_open(const SubTriangle& core, Doubt doubt, double t,
+                                TubeFindings& findings) const {
+  findings.leave_open(doubt, t);
+  if (findings.certificates == nullptr) return;
+  Certificate certificate{CertificateKind::behind, index_, core};
+  certificate.t = {t, kInfinity};
+  findings.certificates->push_back(certificate);
 }
 
 // Comparisons are such that a NaN proves nothing.
@@ -429,8 +443,7 @@ std::optional<Doubt> PatchCertifier::prove_by_tangents(const SubTriangle& core, 
     const double t = (extent(at, tube.origin, tube.direction) - magnitude(tangents->u[2]) -
                       magnitude(tangents->v[2]))
                          .lo;
-    findings.open.push_back({is_inside ? Doubt::fold : Doubt::border, t});
-    findings.t_end = std::min(findings.t_end, t);
+    leave_open(core, is_inside ? Doubt::fold : Doubt::border, t, findings);
     return std::nullopt;
   }
 
@@ -450,8 +463,7 @@ std::optional<Doubt> PatchCertifier::prove_by_tangents(const SubTriangle& core, 
   const bool is_inside =
       center.y - off > 0.0 && center.z - off > 0.0 && (center.x - 2.0 * off) > 0.0;
   if (!is_inside) {
-    findings.open.push_back({Doubt::border, certificate.t.lo});
-    findings.t_end = std::min(findings.t_end, certificate.t.lo);
+    findings.leave_open(Doubt::border, certificate.t.lo);
     return std::nullopt;
   }
   findings.roots.push_back({index_, piece, center, off, certificate.t});

@@ -36,6 +36,7 @@ struct TubeFindings {
   };
 
   void clear();
+  void leave_open(Doubt doubt, double t);
 
   std::vector<Root> roots;
   std::vector<Open> open;
@@ -94,6 +95,8 @@ class PatchCertifier {
              TubeFindings& findings) const;
   [[nodiscard]] bool is_off(const Node& node, const Interval& t, const RayTube& tube,
                             TubeFindings& findings) const;
+  void leave_open(const in_double::SubTriangle& core, Doubt doubt, double t,
+                  TubeFindings& findings) const;
   [[nodiscard]] glm::dvec3 newton(const in_double::SubTriangle& piece, const RayTube& tube) const;
   [[nodiscard]] std::optional<Doubt> prove_by_tangents(const in_double::SubTriangle& core,
                                                        const RayTube& tube, TubeFindings& findings,

@@ -65,12 +65,13 @@ std::string gap_in(const std::vector<Certificate>& certificates, const Certified
                    const RayTube& tube, const std::vector<Triangle>& triangles) {
   std::map<uint32_t, std::set<Key>> dealt_with;
   std::vector<Certificate> roots;
+  std::vector<Certificate> on_borders;  // which the patch may have or not
   for (const Certificate& certificate : certificates) {
     dealt_with[certificate.triangle].insert(key_of(certificate.core));
     if (certificate.kind != CertificateKind::one_root) continue;
     if (is_off_its_core(certificate) || certificate.t.hi < tube.t_min - tube.radius) continue;
-    if (!(least_weight(certificate, kWholeTriangle) > 0.0)) return "a root may lie on a border";
-    roots.push_back(certificate);
+    const bool is_inside = least_weight(certificate, kWholeTriangle) > 0.0;
+    (is_inside ? roots : on_borders).push_back(certificate);
   }
   for (uint32_t i = 0; i < triangles.size(); ++i) {
     if (may_be_met(triangles[i], tube) && !is_covered(kWholeTriangle, dealt_with[i])) {
@@ -93,7 +94,10 @@ std::string gap_in(const std::vector<Certificate>& certificates, const Certified
         return "another root may be nearer";
       }
     }
-  } else if (!roots.empty()) {
+    for (const Certificate& root : on_borders) {
+      if (!(root.t.lo > first->t.hi)) return "a root on a border may be nearer";
+    }
+  } else if (!roots.empty() || !on_borders.empty()) {
     return "there is a root";
   }
   for (const Certificate& certificate : certificates) {
