@@ -45,6 +45,10 @@ inline double magnitude(const Interval& a) {
   return std::isnan(lo) || lo > hi ? lo : hi;
 }
 
+inline double middle(const Interval& a) {
+  return a.lo * 0.5 + a.hi * 0.5;
+}
+
 inline Interval operator-(const Interval& a) {
   return {-a.hi, -a.lo};
 }

@@ -132,7 +132,7 @@ CertifiedAnswer Certifier::first(const OracleRay& ray, double radius,
   if (root != nullptr) {
     const in_double::Triangle tri = to_double(triangles_[root->triangle]);
     answer.t = root->t;
-    answer.root = {0.5 * root->t.lo + 0.5 * root->t.hi, root->triangle, root->weights,
+    answer.root = {middle(root->t), root->triangle, root->weights,
                    in_double::geometric_normal(shape_of(choice_), tri, root->weights)};
   }
   return answer;

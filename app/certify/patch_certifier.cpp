@@ -28,10 +28,6 @@ constexpr double kMostContraction = 0.9;
 constexpr double kCoreWeight = kPieceMargin / (1.0 + 3.0 * kPieceMargin);
 constexpr int kNewtonSteps = 12;
 
-double middle_of(const Interval& a) {
-  return 0.5 * a.lo + 0.5 * a.hi;
-}
-
 // Axes in the plane across along which something about `middle` may be off the tube: toward it, and
 // the tube's own.
 std::array<dvec2, 3> separating_axes(const dvec2& middle) {
@@ -71,10 +67,10 @@ struct Contraction {
 };
 
 std::optional<Contraction> contraction_of(const TangentRanges& tangents) {
-  const double a = middle_of(tangents.u[0]);
-  const double b = middle_of(tangents.v[0]);
-  const double c = middle_of(tangents.u[1]);
-  const double d = middle_of(tangents.v[1]);
+  const double a = middle(tangents.u[0]);
+  const double b = middle(tangents.v[0]);
+  const double c = middle(tangents.u[1]);
+  const double d = middle(tangents.v[1]);
   const double determinant = a * d - b * c;
   Contraction contraction{};
   // Of columns, as GLSL has it.
@@ -127,16 +123,16 @@ class MeanValueForm {
   bool prove_off(const SubTriangle& part, double radius, Certificate& certificate) const {
     // The bounds are convex in the weights: their largest values are at corners.
     std::array<std::array<Interval, 2>, 3> places;
-    dvec2 middle(0.0);
+    dvec2 sum(0.0);
     for (std::size_t k = 0; k < 3; ++k) {
       const dvec3 l = in_double::weights_in(piece_, corner_weights(part)[k]);
       for (std::size_t i = 0; i < 2; ++i) {
         places[k][i] = at_center_[i] + tangents_.u[i] * about(l.y - center_.y) +
                        tangents_.v[i] * about(l.z - center_.z);
-        middle[static_cast<int>(i)] += middle_of(places[k][i]);
+        sum[static_cast<int>(i)] += middle(places[k][i]);
       }
     }
-    for (const dvec2& axis : separating_axes(middle)) {
+    for (const dvec2& axis : separating_axes(sum)) {
       const bool is_off = std::all_of(places.begin(), places.end(), [&](const auto& place) {
         return (Interval(axis.x) * place[0] + Interval(axis.y) * place[1]).lo >
                reach_of(axis, radius);
@@ -166,6 +162,10 @@ void TubeFindings::clear() {
   t_end = kInfinity;
   pieces = 0;
   used_tangents = false;
+}
+
+void TubeFindings::add(const Certificate& certificate) const {
+  if (certificates != nullptr) certificates->push_back(certificate);
 }
 
 void TubeFindings::leave_open(Doubt doubt, double t) {
@@ -287,7 +287,7 @@ void PatchCertifier::visit(const Node& node, std::size_t index, int depth, const
   for (std::size_t k = 0; k < 4; ++k) {
     Certificate certificate{CertificateKind::hull, index_, children[k]};
     if (form && form->prove_off(children[k], tube.radius, certificate)) {
-      if (findings.certificates != nullptr) findings.certificates->push_back(certificate);
+      findings.add(certificate);
     } else if (child < nodes_.size()) {
       visit(nodes_[child + k], child + k, depth + 1, tube, findings);
     } else {
@@ -300,10 +300,9 @@ void PatchCertifier::visit(const Node& node, std::size_t index, int depth, const
 void PatchCertifier::leave_open(const SubTriangle& core, Doubt doubt, double t,
                                 TubeFindings& findings) const {
   findings.leave_open(doubt, t);
-  if (findings.certificates == nullptr) return;
   Certificate certificate{CertificateKind::behind, index_, core};
   certificate.t = {t, kInfinity};
-  findings.certificates->push_back(certificate);
+  findings.add(certificate);
 }
 
 // Comparisons are such that a NaN proves nothing.
@@ -332,7 +331,7 @@ bool PatchCertifier::is_off(const Node& node, const Interval& t, const RayTube& 
     certificate.kind = CertificateKind::behind;
     certificate.t = {findings.t_end, kInfinity};
   }
-  if (proven && findings.certificates != nullptr) findings.certificates->push_back(certificate);
+  if (proven) findings.add(certificate);
   return proven;
 }
 
@@ -392,7 +391,7 @@ std::optional<Doubt> PatchCertifier::prove_by_tangents(const SubTriangle& core, 
                           extent(at_middle, tube.origin, tube.across[1])});
   Certificate hull{CertificateKind::hull, index_, core};
   if (form->prove_off(core, tube.radius, hull)) {
-    if (findings.certificates != nullptr) findings.certificates->push_back(hull);
+    findings.add(hull);
     return std::nullopt;
   }
   const std::optional<Contraction> contraction = contraction_of(*tangents);
@@ -421,7 +420,7 @@ std::optional<Doubt> PatchCertifier::prove_by_tangents(const SubTriangle& core, 
   Certificate certificate{CertificateKind::no_root, index_, core};
   const auto proven = [&] {
     findings.used_tangents = true;
-    if (findings.certificates != nullptr) findings.certificates->push_back(certificate);
+    findings.add(certificate);
   };
   if (is_off_core(box[0], box[1])) {
     proven();

@@ -37,6 +37,7 @@ struct TubeFindings {
 
   void clear();
   void leave_open(Doubt doubt, double t);
+  void add(const Certificate& certificate) const;
 
   std::vector<Root> roots;
   std::vector<Open> open;

@@ -12,6 +12,7 @@
 #include "app/base/memory.h"
 #include "app/base/number_text.h"
 #include "app/base/read_file.h"
+#include "app/base/trimmed.h"
 
 namespace trisect {
 namespace {
@@ -40,12 +41,6 @@ constexpr std::string_view kHitColumns = "t,u,v,triangle";
 
 bool is_text(const fs::path& path) {
   return path.extension() == ".csv";
-}
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
 [[noreturn]] void refuse(const fs::path& path, std::size_t line, std::string_view cell,

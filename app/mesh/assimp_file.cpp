@@ -18,6 +18,7 @@
 
 #include "app/base/error.h"
 #include "app/base/message.h"
+#include "app/base/trimmed.h"
 
 namespace trisect {
 namespace {
@@ -152,13 +153,6 @@ class AssimpScene {
   std::size_t points_ = 0;
   std::size_t lines_ = 0;
 };
-
-// Without blanks around it.
-std::string_view trimmed(std::string_view line) {
-  const std::size_t first = line.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return line.substr(first, line.find_last_not_of(" \t") + 1 - first);
-}
 
 // Throws InputError for a PLY file that cannot have what its head promises: Assimp takes any time
 // for one whose head does not end, or that promises much.

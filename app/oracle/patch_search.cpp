@@ -36,10 +36,6 @@ double least(const dvec3& w) {
   return std::min({w.x, w.y, w.z});
 }
 
-double middle(const Interval& a) {
-  return a.lo * 0.5 + a.hi * 0.5;
-}
-
 double half_width(const Interval& a) {
   return (a.hi - a.lo) * 0.5;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "app/cli/option_groups.h"
 
@@ -69,15 +70,13 @@ CommandPage command_page(const CLI::App& app) {
   page.summary = app.get_description();
   for (const CLI::Option* option : app.get_options()) page.options.push_back(option_page(*option));
   for (const CLI::App* sub : app.get_subcommands({})) page.commands.push_back(command_page(*sub));
-  // Of options that exclude each other one is required.
+  // Of two options that exclude each other one is required. Each names the other.
   std::vector<std::string> choices;
+  std::set<const CLI::Option*> named;
   for (const CLI::Option* option : app.get_options()) {
     for (const CLI::Option* other : option->get_excludes()) {
-      // Each names the other.
-      const std::vector<const CLI::Option*>& all = app.get_options();
-      if (std::find(all.begin(), all.end(), option) > std::find(all.begin(), all.end(), other)) {
-        continue;
-      }
+      named.insert(other);
+      if (named.count(option) > 0) continue;
       choices.push_back(fmt::format("{} | {}", short_form(option_page(*option)),
                                     short_form(option_page(*other))));
     }

@@ -150,6 +150,14 @@ CornerWeights corner_weights(const in_double::SubTriangle& sub_triangle) {
           in_double::weights_of(sub_triangle, {0.0, 0.0, 1.0})};
 }
 
+double largest_weights(const CornerWeights& weights) {
+  double largest = 0.0;
+  for (const dvec3& w : weights) {
+    largest = std::max(largest, std::abs(w.x) + std::abs(w.y) + std::abs(w.z));
+  }
+  return largest;
+}
+
 PatchCorners corners_of(const Patch& patch, const CornerWeights& weights) {
   PatchCorners corners{};
   for (std::size_t k = 0; k < 3; ++k) {

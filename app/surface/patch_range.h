@@ -46,6 +46,9 @@ using CornerWeights = std::array<glm::dvec3, 3>;
 
 CornerWeights corner_weights(const in_double::SubTriangle& sub_triangle);
 
+// The largest sum of the sizes of a corner's weights: 1 within the patch, more beyond.
+double largest_weights(const CornerWeights& weights);
+
 inline glm::dvec3 weigh(const glm::dvec3& w, const std::array<glm::dvec3, 3>& p) {
   return p[0] * w.x + p[1] * w.y + p[2] * w.z;
 }

@@ -17,11 +17,8 @@ using in_double::HeightRange;
 in_double::Corners corners_with_error(const CornerWeights& weights,
                                       const std::array<dvec3, 3>& vectors,
                                       const std::array<dvec3, 3>& at_corners) {
-  double sum = 0.0;
-  for (const dvec3& w : weights) {
-    sum = std::max(sum, std::abs(w.x) + std::abs(w.y) + std::abs(w.z));
-  }
-  return {at_corners[0], at_corners[1], at_corners[2], gamma_double(4) * sum * longest_of(vectors)};
+  return {at_corners[0], at_corners[1], at_corners[2],
+          gamma_double(4) * largest_weights(weights) * longest_of(vectors)};
 }
 
 // What the ranges of sigma over a sub-triangle are made from.
@@ -212,21 +209,6 @@ std::optional<std::array<Interval, 3>> second_derivative_ranges(
   return second;
 }
 
-SigmaRanges nothing_added() {
-  return {0.0, 0.0, 0.0};
-}
-
-// Adds w_i s_i, and what it changes by.
-void add_height(const Patch& patch, std::size_t i, const HeightRange& h,
-                const SphereOverSubTriangle& over, SigmaRanges& sigma) {
-  const auto& P = patch.P;
-  const auto& D = patch.D;
-  in_double::SphereRange sum{sigma.s, sigma.u, sigma.v};
-  in_double::add_height(sum, static_cast<int>(i), h, over.w[i], P[1] - P[0], P[2] - P[0],
-                        D[1] - D[0], D[2] - D[0]);
-  sigma = {sum.s, sum.u, sum.v};
-}
-
 // Far below what stands for infinity, far above any derivative of a scene. A NaN is not bounded.
 bool is_bounded(const Interval& a) {
   return a.lo > -1e-3 * in_double::UNBOUNDED && a.hi < 1e-3 * in_double::UNBOUNDED;
@@ -241,6 +223,24 @@ bool has_bounded_change(const Patch& patch, const HeightRange& h) {
     if (!is_bounded(in_double::height_change(h, dT, patch.D[k] - patch.D[0]))) return false;
   }
   return true;
+}
+
+// The ranges of sigma and of what it changes by, if each height's are known: has_ranges(i, h).
+template <typename HasRanges>
+std::optional<SigmaRanges> sigma_ranges(const Patch& patch, const CornerWeights& weights,
+                                        const PatchCorners& corners, const HasRanges& has_ranges) {
+  const SphereOverSubTriangle over = sphere_over(patch, weights, corners);
+  if (!has_directions(over)) return std::nullopt;
+  const auto& P = patch.P;
+  const auto& D = patch.D;
+  in_double::SphereRange sigma{0.0, 0.0, 0.0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const HeightRange h = height_range(patch, i, over);
+    if (!has_ranges(i, h)) return std::nullopt;
+    in_double::add_height(sigma, static_cast<int>(i), h, over.w[i], P[1] - P[0], P[2] - P[0],
+                          D[1] - D[0], D[2] - D[0]);
+  }
+  return SigmaRanges{sigma.s, sigma.u, sigma.v};
 }
 
 std::array<HeightRange, 3> height_ranges(const Patch& patch, const SphereOverSubTriangle& over) {
@@ -277,28 +277,19 @@ bool sphere_is_smooth(const Patch& patch, const CornerWeights& weights) {
 std::optional<SigmaRanges> sphere_derivative_ranges(const Patch& patch,
                                                     const CornerWeights& weights,
                                                     const PatchCorners& corners) {
-  const SphereOverSubTriangle over = sphere_over(patch, weights, corners);
-  if (!has_directions(over)) return std::nullopt;
-  SigmaRanges sigma = nothing_added();
-  for (std::size_t i = 0; i < 3; ++i) {
-    const HeightRange h = height_range(patch, i, over);
-    if (!is_root_with_derivatives(patch, i, h)) return std::nullopt;
-    add_height(patch, i, h, over, sigma);
-  }
-  return sigma;
+  return sigma_ranges(patch, weights, corners, [&](std::size_t i, const HeightRange& h) {
+    return is_root_with_derivatives(patch, i, h);
+  });
 }
 
 std::optional<SigmaRanges> sphere_change_ranges(const Patch& patch, const CornerWeights& weights,
                                                 const PatchCorners& corners) {
-  const SphereOverSubTriangle over = sphere_over(patch, weights, corners);
-  if (!has_directions(over)) return std::nullopt;
-  SigmaRanges sigma = nothing_added();
-  for (std::size_t i = 0; i < 3; ++i) {
-    const HeightRange h = height_range(patch, i, over);
-    if (!has_root(h) || !has_bounded_change(patch, h)) return std::nullopt;
-    add_height(patch, i, h, over, sigma);
+  const auto sigma = sigma_ranges(patch, weights, corners, [&](std::size_t, const HeightRange& h) {
+    return has_root(h) && has_bounded_change(patch, h);
+  });
+  if (!sigma || !is_bounded(sigma->s) || !is_bounded(sigma->u) || !is_bounded(sigma->v)) {
+    return std::nullopt;
   }
-  if (!is_bounded(sigma.s) || !is_bounded(sigma.u) || !is_bounded(sigma.v)) return std::nullopt;
   return sigma;
 }
 

@@ -41,15 +41,6 @@ Interval range_along(const std::array<dvec3, count>& vectors, const dvec3& axis,
   return range_of(values, slack);
 }
 
-// The largest sum of the sizes of a corner's weights: 1 within the patch, more beyond.
-double largest_weights(const CornerWeights& weights) {
-  double largest = 1.0;
-  for (const dvec3& w : weights) {
-    largest = std::max(largest, std::abs(w.x) + std::abs(w.y) + std::abs(w.z));
-  }
-  return largest;
-}
-
 bool is_finite(const TangentRanges& ranges) {
   const auto finite = [](const Interval& a) { return std::isfinite(a.lo) && std::isfinite(a.hi); };
   return std::all_of(ranges.u.begin(), ranges.u.end(), finite) &&

@@ -25,6 +25,14 @@ Mesh load_asset(const std::string& name);
 // mesh's own normals. A mesh without holes stays as it is.
 Mesh without_holes(Mesh mesh);
 
+// Every surface in every shell, and one that alpha takes far from the triangle.
+inline constexpr std::array kSurfaceChoices{SurfaceChoice{SURFACE_FLAT, 0.0, SHELL_NORMAL},
+                                            SurfaceChoice{SURFACE_PHONG, 0.65, SHELL_NORMAL},
+                                            SurfaceChoice{SURFACE_PHONG, 0.65, SHELL_HEIGHT},
+                                            SurfaceChoice{SURFACE_PHONG, -2.0, SHELL_HEIGHT},
+                                            SurfaceChoice{SURFACE_SPHERE, 0.0, SHELL_NORMAL},
+                                            SurfaceChoice{SURFACE_SPHERE, 0.0, SHELL_HEIGHT}};
+
 // A mesh of one triangle.
 Mesh one_triangle(const std::array<glm::dvec3, 3>& positions,
                   const std::array<glm::dvec3, 3>& normals);

@@ -21,12 +21,7 @@ using glm::dvec3;
 TEST(Enclosure, HoldsTheSurfaceOverSubTrianglesOfAllSizes) {
   std::mt19937_64 random(9);
   std::size_t points = 0;
-  for (const SurfaceChoice& choice : {SurfaceChoice{SURFACE_FLAT, 0.0, SHELL_NORMAL},
-                                      SurfaceChoice{SURFACE_PHONG, 0.65, SHELL_NORMAL},
-                                      SurfaceChoice{SURFACE_PHONG, 0.65, SHELL_HEIGHT},
-                                      SurfaceChoice{SURFACE_PHONG, -2.0, SHELL_HEIGHT},
-                                      SurfaceChoice{SURFACE_SPHERE, 0.0, SHELL_NORMAL},
-                                      SurfaceChoice{SURFACE_SPHERE, 0.0, SHELL_HEIGHT}}) {
+  for (const SurfaceChoice& choice : test::kSurfaceChoices) {
     const in_double::Shape shape = shape_of(choice);
     for (int i = 0; i < 1000; ++i) {
       const double spread = std::array{5.0, 30.0, 70.0}.at(static_cast<std::size_t>(i) % 3);

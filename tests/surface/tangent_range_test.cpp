@@ -23,12 +23,7 @@ using glm::dvec3;
 // for which the sphere surface is not differentiable everywhere.
 TEST(TangentRanges, HoldWhatTheSurfaceChangesBy) {
   std::mt19937_64 random(31);
-  for (const SurfaceChoice& choice : {SurfaceChoice{SURFACE_FLAT, 0.0, SHELL_NORMAL},
-                                      SurfaceChoice{SURFACE_PHONG, 0.65, SHELL_NORMAL},
-                                      SurfaceChoice{SURFACE_PHONG, 0.65, SHELL_HEIGHT},
-                                      SurfaceChoice{SURFACE_PHONG, -2.0, SHELL_HEIGHT},
-                                      SurfaceChoice{SURFACE_SPHERE, 0.0, SHELL_NORMAL},
-                                      SurfaceChoice{SURFACE_SPHERE, 0.0, SHELL_HEIGHT}}) {
+  for (const SurfaceChoice& choice : test::kSurfaceChoices) {
     SCOPED_TRACE(testing::Message() << "surface " << choice.surface << " shell " << choice.shell);
     const in_long_double::Shape shape{choice.surface, choice.shell,
                                       static_cast<long double>(choice.alpha)};
