@@ -35,7 +35,8 @@ void expect_to_end(const SurfaceChoice& surface, Accel accel, bool shadows) {
     TraceParams params = few_pixels(scene);
     test::spoil(garbage, random, scene);
     test::spoil(garbage, random, params);
-    VulkanTracer tracer(test::validated_device(), scene, params.width, params.height, choice);
+    VulkanTracer tracer(test::validated_device(), scene, params.width, params.height, choice,
+                        test::shared_kernels(scene, choice));
     Frame frame;
     ASSERT_TRUE(tracer.render(params, frame));
     for (const PixelAovs& aovs : frame.aovs) {

@@ -3,8 +3,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "app/bake/subpatch_bounds.h"
+#include "app/buffers/buffer_limits.h"
 #include "app/dispatch/vulkan_tracer.h"
 
 namespace trisect::test {
@@ -24,12 +27,26 @@ const gpu::Device& validated_device() {
   return device;
 }
 
+std::shared_ptr<const TracerKernels> shared_kernels(const BakedScene& scene,
+                                                    const KernelChoice& choice) {
+  const gpu::Device& device = validated_device();
+  // Made after the device and destroyed before it.
+  static std::vector<std::shared_ptr<const TracerKernels>> made;
+  KernelPlan plan = plan_kernels(device, scene, choice, kNoLimit);
+  for (const auto& kernels : made) {
+    if (kernels->plan() == plan) return kernels;
+  }
+  made.push_back(std::make_shared<const TracerKernels>(device, std::move(plan), nullptr));
+  return made.back();
+}
+
 Frame trace(const BakedScene& baked, const TraceSettings& settings) {
   Frame frame;
   BakedScene scene = baked;
   if (settings.solver == SOLVER_ROBUST) scene.subpatches = bake_subpatches(scene);
-  VulkanTracer tracer(validated_device(), scene, settings.width, settings.height,
-                      {settings.solver, true, true});
+  const KernelChoice choice{settings.solver, true, true};
+  VulkanTracer tracer(validated_device(), scene, settings.width, settings.height, choice,
+                      shared_kernels(scene, choice));
   tracer.render(make_params(scene, settings), frame);
   return frame;
 }

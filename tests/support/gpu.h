@@ -5,10 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
 
 #include "app/bake/bake.h"
 #include "app/dispatch/trace_settings.h"
+#include "app/dispatch/tracer_kernels.h"
 #include "app/frame/frame.h"
 #include "vk/device.h"
 
@@ -30,6 +32,11 @@ class GpuTest : public ::testing::Test {
     }
   }
 };
+
+// The kernels on validated_device() for a scene, without a limit of buffers: made once in a process
+// for all scenes of one plan, as a driver takes longer to make them than to trace a small image.
+std::shared_ptr<const TracerKernels> shared_kernels(const BakedScene& scene,
+                                                    const KernelChoice& choice);
 
 // One frame with AOVs and counts.
 Frame trace(const BakedScene& baked, const TraceSettings& settings);
