@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include "app/base/interval.h"
-#include "app/surface/sphere_range.h"
+#include "app/surface/tangent_range.h"
 #include "app/surface/to_double.h"
 
 namespace trisect {
@@ -22,8 +20,6 @@ using glm::dvec3;
 constexpr int kDeepest = 12;
 // Nor is one from this depth on whose enclosure is much larger than itself.
 constexpr int kTornDepth = 7;
-// Balls around sampled tangents are trusted from this depth on.
-constexpr int kTrustSamples = 2;
 // A root may lie outside the triangle by this weight, so that rounding loses none on a shared edge.
 constexpr double kOutside = 1e-12;
 // A root's distance from the line, over the largest coordinate seen from the line's origin: some
@@ -38,24 +34,6 @@ double least(const dvec3& w) {
 
 double half_width(const Interval& a) {
   return (a.hi - a.lo) * 0.5;
-}
-
-// A ball that holds a quadratic, given its values at the corners and then at the midpoints of the
-// edges 01 12 20: around the mean of its Bernstein coefficients, out to the farthest of them.
-std::pair<dvec3, double> ball_of_quadratic(std::array<dvec3, 6> values) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    values[i + 3] = values[i + 3] * 2.0 - (values[i] + values[(i + 1) % 3]) * 0.5;
-  }
-  dvec3 center(0.0);
-  for (const dvec3& value : values) center += value;
-  center /= 6.0;
-  double radius = 0.0;
-  // Not std::max, which would drop a NaN.
-  for (const dvec3& value : values) {
-    const double distance = glm::distance(value, center);
-    if (!(distance <= radius)) radius = distance;
-  }
-  return {center, radius};
 }
 
 // Whether two iterations ended at one root. Near a fold, a double root, Newton's iterates have half
@@ -103,9 +81,7 @@ PatchSearch::PatchSearch(const SurfaceChoice& choice, const Triangle& tri, int l
       patch_(patch_of(choice.shell, tri)),
       shape_(shape_of(choice)),
       tri_(to_double(tri)),
-      defined_(has_surface(tri)),
-      quadratic_tangents_(choice.surface == SURFACE_FLAT ||
-                          (choice.surface == SURFACE_PHONG && choice.shell == SHELL_NORMAL)) {
+      defined_(has_surface(tri)) {
   if (!defined_) return;
   nodes_.push_back(node_of(kWholeTriangle));
   std::size_t first = 0;
@@ -134,59 +110,30 @@ PatchSearch::Node PatchSearch::node_of(const in_double::SubTriangle& sub_triangl
   node.enclosure = enclose(choice_, patch_, sub_triangle);
   node.tangents = tangents_of(sub_triangle);
   // For the other surfaces enclose() is of second order in the size already.
-  if (choice_.surface == SURFACE_SPHERE && node.tangents.proven) {
-    node.tangent_enclosure = enclose_by_tangents(sub_triangle, node.tangents);
+  if (choice_.surface == SURFACE_SPHERE && node.tangents) {
+    node.tangent_enclosure = enclose_by_tangents(sub_triangle, *node.tangents);
   }
   return node;
 }
 
-PatchSearch::Tangents PatchSearch::tangents_of(const in_double::SubTriangle& sub_triangle) const {
-  const CornerWeights weights = corner_weights(sub_triangle);
-  if (choice_.surface == SURFACE_SPHERE) {
-    const PatchCorners corners = corners_of(patch_, weights);
-    if (const auto sigma = sphere_derivative_ranges(patch_, weights, corners)) {
-      // S_u = dT + D sigma_u + dD sigma, each factor a middle and what it may differ from it.
-      const dvec3 D = (corners.D[0] + corners.D[1] + corners.D[2]) / 3.0;
-      double turn = 0.0;
-      for (const dvec3& corner : corners.D) turn = std::max(turn, glm::distance(D, corner));
-      const auto ball = [&](std::size_t k, const Interval& slope) {
-        const dvec3 dD = patch_.D[k] - patch_.D[0];
-        const double radius = (glm::length(D) + turn) * half_width(slope) +
-                              turn * std::abs(middle(slope)) +
-                              glm::length(dD) * half_width(sigma->s);
-        return std::pair(patch_.P[k] - patch_.P[0] + D * middle(slope) + dD * middle(sigma->s),
-                         radius + kTangentRounding * patch_.longest);
-      };
-      const auto [S_u, radius_u] = ball(1, sigma->u);
-      const auto [S_v, radius_v] = ball(2, sigma->v);
-      if (std::isfinite(radius_u) && std::isfinite(radius_v)) {
-        return {S_u, S_v, radius_u, radius_v, true};
-      }
-    }
-  }
-  std::array<dvec3, 6> S_u{};
-  std::array<dvec3, 6> S_v{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Point corner = evaluate(weights[i]);
-    const Point amid = evaluate((weights[i] + weights[(i + 1) % 3]) * 0.5);
-    S_u[i] = corner.S_u;
-    S_v[i] = corner.S_v;
-    S_u[i + 3] = amid.S_u;
-    S_v[i + 3] = amid.S_v;
-  }
-  Tangents tangents{};
-  tangents.proven = quadratic_tangents_;
-  std::tie(tangents.S_u, tangents.radius_u) = ball_of_quadratic(S_u);
-  std::tie(tangents.S_v, tangents.radius_v) = ball_of_quadratic(S_v);
-  const double between_samples = tangents.proven ? 1.0 : 1.5;
-  const double slack = kTangentRounding * (glm::length(tangents.S_u) + glm::length(tangents.S_v));
-  tangents.radius_u = tangents.radius_u * between_samples + slack;
-  tangents.radius_v = tangents.radius_v * between_samples + slack;
-  return tangents;
+std::optional<PatchSearch::Tangents> PatchSearch::tangents_of(
+    const in_double::SubTriangle& sub_triangle) const {
+  const std::optional<TangentRanges> ranges =
+      tangent_ranges(choice_, patch_, sub_triangle,
+                     {dvec3(1.0, 0.0, 0.0), dvec3(0.0, 1.0, 0.0), dvec3(0.0, 0.0, 1.0)});
+  if (!ranges) return std::nullopt;
+  // By the weights of the patch, of which those within are this part.
+  const double size = sub_triangle.size;
+  const auto vector_of = [](const std::array<Interval, 3>& range, const auto& of) {
+    return dvec3(of(range[0]), of(range[1]), of(range[2]));
+  };
+  const auto [u, v] = *ranges;
+  return Tangents{vector_of(u, middle) / size, vector_of(v, middle) / size,
+                  vector_of(u, half_width) / std::abs(size),
+                  vector_of(v, half_width) / std::abs(size)};
 }
 
-// S(w) = S(c) + a du + b dv, c the centre, a and b means of S_u and S_v between c and w. `tangents`
-// must be proven for the sub-triangle.
+// S(w) = S(c) + a du + b dv, c the centre, a and b between S_u and S_v of c and w.
 Enclosure PatchSearch::enclose_by_tangents(const in_double::SubTriangle& sub_triangle,
                                            const Tangents& tangents) const {
   const CornerWeights weights = corner_weights(sub_triangle);
@@ -197,8 +144,8 @@ Enclosure PatchSearch::enclose_by_tangents(const in_double::SubTriangle& sub_tri
   for (std::size_t k = 0; k < 3; ++k) {
     const dvec3 d = weights[k] - center;
     e.points[k] = S + tangents.S_u * d.y + tangents.S_v * d.z;
-    e.radius =
-        std::max(e.radius, tangents.radius_u * std::abs(d.y) + tangents.radius_v * std::abs(d.z));
+    e.radius = std::max(
+        e.radius, glm::length(tangents.off_u * std::abs(d.y) + tangents.off_v * std::abs(d.z)));
   }
   e.radius += kTangentRounding * (glm::length(S) + patch_.longest);
   return e;
@@ -231,10 +178,23 @@ std::optional<double> PatchSearch::meet(const Enclosure& enclosure, const Query&
                                         PatchFindings& findings) {
   const Line& line = query.line;
   double off = 0.0;
-  for (const dvec3& axis : line.across) {
+  // axis: of unit length, across the line.
+  const auto is_off = [&](const dvec3& axis) {
     const Interval x = extent_along(enclosure, line.origin, axis);
-    off = std::max({off, x.lo, -x.hi});
-    if (off > findings.margin) return std::nullopt;
+    off = std::max({off, x.lo - query.residual, -x.hi - query.residual});
+    return off > findings.margin;
+  };
+  const auto& [right, up] = line.across;
+  if (is_off(right) || is_off(up)) return std::nullopt;
+  // What is long and thin is off the line along an axis across one of its own sides.
+  if (enclosure.count == 3) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const dvec3 side = enclosure.points[(k + 1) % 3] - enclosure.points[k];
+      // Not their vector product with the direction: it is mere roundings if they are parallel.
+      const dvec2 seen(glm::dot(side, right), glm::dot(side, up));
+      const double length = glm::length(seen);
+      if (length > 0.0 && is_off((up * seen.x - right * seen.y) / length)) return std::nullopt;
+    }
   }
   const Interval t = extent_along(enclosure, line.origin, line.direction);
   if (t.lo > query.t_max || t.hi < query.t_min) return std::nullopt;
@@ -254,6 +214,17 @@ bool PatchSearch::is_torn(const Enclosure& enclosure, int depth) const {
   return enclosure.radius + width > most * std::ldexp(patch_.longest, -depth);
 }
 
+// Whether d.(a x b) keeps its sign for every a and b of the tangents.
+bool PatchSearch::is_one_to_one(const Tangents& tangents, const dvec3& d) {
+  const auto& [S_u, S_v, off_u, off_v] = tangents;
+  const double turn = std::abs(glm::dot(d, glm::cross(S_u, S_v)));
+  const dvec3 both(off_u.y * off_v.z + off_u.z * off_v.y, off_u.z * off_v.x + off_u.x * off_v.z,
+                   off_u.x * off_v.y + off_u.y * off_v.x);
+  const double spread = glm::dot(off_u, glm::abs(glm::cross(d, S_v))) +
+                        glm::dot(off_v, glm::abs(glm::cross(d, S_u))) + glm::dot(glm::abs(d), both);
+  return turn > spread;
+}
+
 void PatchSearch::visit(const Node& node, std::size_t index, int depth, const Query& query,
                         PatchFindings& findings) const {
   const Line& line = query.line;
@@ -262,14 +233,9 @@ void PatchSearch::visit(const Node& node, std::size_t index, int depth, const Qu
   if (node.tangent_enclosure.count > 0 && !meet(node.tangent_enclosure, query, findings)) return;
 
   // The projection along the line, of direction d, is one to one if d.(a x b) keeps its sign for
-  // every a in the ball about S_u and b in that about S_v: two of its values differ by such an a
-  // and b, means of S_u and S_v between the two, times the differences of the weights.
-  const auto& [S_u, S_v, radius_u, radius_v, proven] = node.tangents;
-  const dvec3& d = line.direction;
-  const double turn = std::abs(glm::dot(d, glm::cross(S_u, S_v)));
-  const double spread = radius_u * glm::length(glm::cross(d, S_v)) +
-                        radius_v * glm::length(glm::cross(d, S_u)) + radius_u * radius_v;
-  if (turn > spread && (proven || depth >= kTrustSamples)) {
+  // every a between the S_u of the sub-triangle and b between the S_v: two of its values differ by
+  // such an a and b times the differences of the weights.
+  if (node.tangents && is_one_to_one(*node.tangents, line.direction)) {
     PatchFindings::Root root{};
     root.weights = in_double::centre_of(node.sub_triangle);
     const double size = std::abs(node.sub_triangle.size);
@@ -294,9 +260,9 @@ void PatchSearch::visit(const Node& node, std::size_t index, int depth, const Qu
   } else {
     // The tangents of a sub-triangle hold its children's. By them alone most children are off the
     // line, at a tenth of the cost of the children's own enclosures.
-    const bool by_parent = choice_.surface == SURFACE_SPHERE && proven;
+    const bool by_parent = choice_.surface == SURFACE_SPHERE && node.tangents.has_value();
     for (const in_double::SubTriangle& below : quarter(node.sub_triangle)) {
-      if (by_parent && !meet(enclose_by_tangents(below, node.tangents), query, findings)) {
+      if (by_parent && !meet(enclose_by_tangents(below, *node.tangents), query, findings)) {
         continue;
       }
       visit(node_of(below), nodes_.size(), depth + 1, query, findings);

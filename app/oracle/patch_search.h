@@ -47,10 +47,7 @@ struct PatchFindings {
 // The search divides the patch in four until a sub-triangle's enclosure (proven, patch_range.h) is
 // off the line, or the surface over the sub-triangle, projected along the line, does not fold: then
 // it holds one root at most, and Newton's iteration finds it or ends elsewhere. Whether it folds is
-// told from balls around the tangents S_u and S_v. They are proven for flat triangles and for phong
-// in the normal shell, whose tangents are quadratic in w, and for sub-triangles of the sphere
-// surface on which sphere_derivative_ranges bounds the derivatives of sigma; for the others their
-// radius is 1.5 times what six samples show.
+// told from proven ranges of the tangents S_u and S_v (tangent_range.h).
 class PatchSearch {
  public:
   // Keeps the enclosures of `levels` divisions: (4^(levels + 1) - 1) / 3, of some 800 bytes each.
@@ -68,18 +65,18 @@ class PatchSearch {
   [[nodiscard]] double longest_edge() const { return patch_.longest; }
 
  private:
-  // Balls that hold S_u and S_v over a sub-triangle.
+  // Over a sub-triangle each component of S_u and S_v is this, give or take that of off_u and
+  // off_v.
   struct Tangents {
     glm::dvec3 S_u;
     glm::dvec3 S_v;
-    double radius_u;
-    double radius_v;
-    bool proven;  // if not, the radii come from six samples
+    glm::dvec3 off_u;
+    glm::dvec3 off_v;
   };
   struct Node {
     in_double::SubTriangle sub_triangle;
     Enclosure enclosure;
-    Tangents tangents;
+    std::optional<Tangents> tangents;  // nothing where none are proven
     // By the mean value theorem: S at the centre and what the tangents add from there. Its count is
     // 0 if it is not used.
     Enclosure tangent_enclosure;
@@ -92,11 +89,13 @@ class PatchSearch {
   struct Query;
 
   [[nodiscard]] Node node_of(const in_double::SubTriangle& sub_triangle) const;
-  [[nodiscard]] Tangents tangents_of(const in_double::SubTriangle& sub_triangle) const;
+  [[nodiscard]] std::optional<Tangents> tangents_of(
+      const in_double::SubTriangle& sub_triangle) const;
   [[nodiscard]] Enclosure enclose_by_tangents(const in_double::SubTriangle& sub_triangle,
                                               const Tangents& tangents) const;
   [[nodiscard]] Point evaluate(const glm::dvec3& weights) const;
   [[nodiscard]] bool is_torn(const Enclosure& enclosure, int depth) const;
+  static bool is_one_to_one(const Tangents& tangents, const glm::dvec3& direction);
   static std::optional<double> meet(const Enclosure& enclosure, const Query& query,
                                     PatchFindings& findings);
   void visit(const Node& node, std::size_t index, int depth, const Query& query,
@@ -109,8 +108,7 @@ class PatchSearch {
   Patch patch_;
   in_double::Shape shape_;
   in_double::Triangle tri_;
-  bool defined_;  // false: there is no surface (has_surface)
-  bool quadratic_tangents_;
+  bool defined_;             // false: there is no surface (has_surface)
   std::vector<Node> nodes_;  // the children of node i are 4 i + 1 to 4 i + 4
 };
 
