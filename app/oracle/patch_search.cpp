@@ -122,18 +122,20 @@ std::optional<PatchSearch::Tangents> PatchSearch::tangents_of(
       tangent_ranges(choice_, patch_, sub_triangle,
                      {dvec3(1.0, 0.0, 0.0), dvec3(0.0, 1.0, 0.0), dvec3(0.0, 0.0, 1.0)});
   if (!ranges) return std::nullopt;
+  Tangents tangents{};
   // By the weights of the patch, of which those within are this part.
   const double size = sub_triangle.size;
-  const auto vector_of = [](const std::array<Interval, 3>& range, const auto& of) {
-    return dvec3(of(range[0]), of(range[1]), of(range[2]));
-  };
-  const auto [u, v] = *ranges;
-  return Tangents{vector_of(u, middle) / size, vector_of(v, middle) / size,
-                  vector_of(u, half_width) / std::abs(size),
-                  vector_of(v, half_width) / std::abs(size)};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<glm::length_t>(k);
+    tangents.S_u[axis] = middle(ranges->u[k]) / size;
+    tangents.S_v[axis] = middle(ranges->v[k]) / size;
+    tangents.off_u[axis] = half_width(ranges->u[k]) / std::abs(size);
+    tangents.off_v[axis] = half_width(ranges->v[k]) / std::abs(size);
+  }
+  return tangents;
 }
 
-// S(w) = S(c) + a du + b dv, c the centre, a and b between S_u and S_v of c and w.
+// S(w) = S(c) + a du + b dv, c the centre, a and b among the S_u and S_v between c and w.
 Enclosure PatchSearch::enclose_by_tangents(const in_double::SubTriangle& sub_triangle,
                                            const Tangents& tangents) const {
   const CornerWeights weights = corner_weights(sub_triangle);
@@ -214,7 +216,9 @@ bool PatchSearch::is_torn(const Enclosure& enclosure, int depth) const {
   return enclosure.radius + width > most * std::ldexp(patch_.longest, -depth);
 }
 
-// Whether d.(a x b) keeps its sign for every a and b of the tangents.
+// Whether the projection along a line of direction d is one to one, as it is if d.(a x b) keeps its
+// sign for every a of the S_u and b of the S_v: two of its values differ by such an a and b times
+// the differences of the weights.
 bool PatchSearch::is_one_to_one(const Tangents& tangents, const dvec3& d) {
   const auto& [S_u, S_v, off_u, off_v] = tangents;
   const double turn = std::abs(glm::dot(d, glm::cross(S_u, S_v)));
@@ -232,9 +236,6 @@ void PatchSearch::visit(const Node& node, std::size_t index, int depth, const Qu
   if (!t) return;
   if (node.tangent_enclosure.count > 0 && !meet(node.tangent_enclosure, query, findings)) return;
 
-  // The projection along the line, of direction d, is one to one if d.(a x b) keeps its sign for
-  // every a between the S_u of the sub-triangle and b between the S_v: two of its values differ by
-  // such an a and b times the differences of the weights.
   if (node.tangents && is_one_to_one(*node.tangents, line.direction)) {
     PatchFindings::Root root{};
     root.weights = in_double::centre_of(node.sub_triangle);
