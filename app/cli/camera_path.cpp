@@ -14,7 +14,7 @@ namespace trisect {
 namespace {
 
 using glm::dvec3;
-using nlohmann::json;
+using Json = nlohmann::json;
 
 // A rotation about an axis, by radians.
 glm::dmat3 turn_around(const dvec3& axis, double angle) {
@@ -30,7 +30,7 @@ class PathReader {
     throw InputError(fmt::format("{}: {}.", file_, what));
   }
 
-  void expect_names(const json& object, const std::string& what,
+  void expect_names(const Json& object, const std::string& what,
                     std::initializer_list<const char*> names) const {
     if (!object.is_object()) fail(what + " is no object");
     for (const auto& [name, value] : object.items()) {
@@ -39,7 +39,7 @@ class PathReader {
     }
   }
 
-  [[nodiscard]] double number(const json& value, const std::string& what, double low,
+  [[nodiscard]] double number(const Json& value, const std::string& what, double low,
                               double high) const {
     if (value.is_number() && value.get<double>() >= low && value.get<double>() <= high) {
       return value.get<double>();
@@ -47,10 +47,10 @@ class PathReader {
     fail(fmt::format("{} is not a number from {:g} to {:g}", what, low, high));
   }
 
-  [[nodiscard]] std::optional<dvec3> triple(const json& key, const char* name,
+  [[nodiscard]] std::optional<dvec3> triple(const Json& key, const char* name,
                                             const std::string& what) const {
     if (!key.contains(name)) return std::nullopt;
-    const json& value = key.at(name);
+    const Json& value = key.at(name);
     const std::string whose = fmt::format("{} of {}", name, what);
     if (!value.is_array() || value.size() != 3) fail(whose + " is not three numbers");
     constexpr double largest = 1e12;  // as --eye allows
@@ -120,14 +120,14 @@ Camera CameraPath::framing(const Camera& camera, std::span<const dvec3> vertices
 
 CameraPath CameraPath::from_json(std::string_view text, const std::string& file) {
   const PathReader reader(file);
-  const json root = json::parse(text, nullptr, false);
+  const Json root = Json::parse(text, nullptr, false);
   if (root.is_discarded()) reader.fail("is not JSON");
   reader.expect_names(root, "the path", {"frames", "keys"});
   if (!root.contains("keys") || !root["keys"].is_array() || root["keys"].empty()) {
     reader.fail("has no keys");
   }
   CameraPath path;
-  for (const json& key : root["keys"]) {
+  for (const Json& key : root["keys"]) {
     const std::string what = fmt::format("key {}", path.keys_.size());
     reader.expect_names(key, what, {"frame", "eye", "target", "up", "fov"});
     if (!key.contains("frame")) reader.fail(what + " has no frame");
