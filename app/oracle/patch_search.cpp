@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 #include "app/base/interval.h"
 #include "app/surface/tangent_range.h"

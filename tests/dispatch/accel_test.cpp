@@ -28,29 +28,14 @@ std::vector<Accel> fast_accels(const gpu::Device& device = test::validated_devic
   return accels;
 }
 
-KernelChoice choice_of(Accel accel) {
-  return {SOLVER_ROBUST, true, false, accel};
-}
-
-Frame render(VulkanTracer tracer, const BakedScene& scene, const TraceSettings& settings) {
+Frame trace(const BakedScene& scene, const TraceSettings& settings, Accel accel,
+            std::size_t buffer_limit = kNoLimit,
+            const gpu::Device& device = test::validated_device()) {
+  VulkanTracer tracer = test::tracer_of(scene, settings.width, settings.height,
+                                        {SOLVER_ROBUST, true, false, accel}, buffer_limit, device);
   Frame frame;
   tracer.render(make_params(scene, settings), frame);
   return frame;
-}
-
-// With kernels of its own.
-Frame trace(const BakedScene& scene, const TraceSettings& settings, Accel accel,
-            std::size_t buffer_limit, const gpu::Device& device = test::validated_device()) {
-  return render(
-      VulkanTracer(device, scene, settings.width, settings.height, choice_of(accel), buffer_limit),
-      scene, settings);
-}
-
-Frame trace(const BakedScene& scene, const TraceSettings& settings, Accel accel) {
-  const KernelChoice choice = choice_of(accel);
-  return render(VulkanTracer(test::validated_device(), scene, settings.width, settings.height,
-                             choice, test::shared_kernels(scene, choice)),
-                scene, settings);
 }
 
 // Every acceleration against the list.
@@ -59,9 +44,8 @@ void expect_all_equal(BakedScene scene, const TraceSettings& settings, const std
   scene.bvh = build_bvh(scene);
   const Frame list = trace(scene, settings, Accel::list);
   for (const Accel accel : fast_accels()) {
-    const Frame frame = buffer_limit == kNoLimit ? trace(scene, settings, accel)
-                                                 : trace(scene, settings, accel, buffer_limit);
-    test::expect_equal(list, frame, what + " " + accel_name(accel));
+    test::expect_equal(list, trace(scene, settings, accel, buffer_limit),
+                       what + " " + accel_name(accel));
   }
 }
 

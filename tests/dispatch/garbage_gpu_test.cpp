@@ -35,8 +35,7 @@ void expect_to_end(const SurfaceChoice& surface, Accel accel, bool shadows) {
     TraceParams params = few_pixels(scene);
     test::spoil(garbage, random, scene);
     test::spoil(garbage, random, params);
-    VulkanTracer tracer(test::validated_device(), scene, params.width, params.height, choice,
-                        test::shared_kernels(scene, choice));
+    VulkanTracer tracer = test::tracer_of(scene, params.width, params.height, choice);
     Frame frame;
     ASSERT_TRUE(tracer.render(params, frame));
     for (const PixelAovs& aovs : frame.aovs) {

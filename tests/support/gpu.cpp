@@ -2,15 +2,31 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "app/bake/subpatch_bounds.h"
-#include "app/buffers/buffer_limits.h"
-#include "app/dispatch/vulkan_tracer.h"
 
 namespace trisect::test {
+namespace {
+
+// Those on validated_device().
+std::shared_ptr<const TracerKernels> shared_kernels(const BakedScene& scene,
+                                                    const KernelChoice& choice) {
+  const gpu::Device& device = validated_device();
+  // Made after the device and destroyed before it.
+  static std::vector<std::shared_ptr<const TracerKernels>> made;
+  KernelPlan plan = plan_kernels(device, scene, choice, kNoLimit);
+  for (const auto& kernels : made) {
+    if (kernels->plan() == plan) return kernels;
+  }
+  made.push_back(std::make_shared<const TracerKernels>(device, std::move(plan), nullptr));
+  return made.back();
+}
+
+}  // namespace
 
 bool validates() {
   const char* value = std::getenv("TRISECT_TEST_VALIDATION");
@@ -27,26 +43,21 @@ const gpu::Device& validated_device() {
   return device;
 }
 
-std::shared_ptr<const TracerKernels> shared_kernels(const BakedScene& scene,
-                                                    const KernelChoice& choice) {
-  const gpu::Device& device = validated_device();
-  // Made after the device and destroyed before it.
-  static std::vector<std::shared_ptr<const TracerKernels>> made;
-  KernelPlan plan = plan_kernels(device, scene, choice, kNoLimit);
-  for (const auto& kernels : made) {
-    if (kernels->plan() == plan) return kernels;
+VulkanTracer tracer_of(const BakedScene& scene, uint32_t width, uint32_t height,
+                       const KernelChoice& choice, std::size_t buffer_limit,
+                       const gpu::Device& device) {
+  if (&device == &validated_device() && buffer_limit == kNoLimit) {
+    return {device, scene, width, height, choice, shared_kernels(scene, choice)};
   }
-  made.push_back(std::make_shared<const TracerKernels>(device, std::move(plan), nullptr));
-  return made.back();
+  return {device, scene, width, height, choice, buffer_limit};
 }
 
 Frame trace(const BakedScene& baked, const TraceSettings& settings) {
   Frame frame;
   BakedScene scene = baked;
   if (settings.solver == SOLVER_ROBUST) scene.subpatches = bake_subpatches(scene);
-  const KernelChoice choice{settings.solver, true, true};
-  VulkanTracer tracer(validated_device(), scene, settings.width, settings.height, choice,
-                      shared_kernels(scene, choice));
+  VulkanTracer tracer =
+      tracer_of(scene, settings.width, settings.height, {settings.solver, true, true});
   tracer.render(make_params(scene, settings), frame);
   return frame;
 }

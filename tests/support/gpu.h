@@ -5,12 +5,13 @@
 
 #include <gtest/gtest.h>
 
-#include <memory>
+#include <cstddef>
 #include <string>
 
 #include "app/bake/bake.h"
+#include "app/buffers/buffer_limits.h"
 #include "app/dispatch/trace_settings.h"
-#include "app/dispatch/tracer_kernels.h"
+#include "app/dispatch/vulkan_tracer.h"
 #include "app/frame/frame.h"
 #include "vk/device.h"
 
@@ -33,10 +34,12 @@ class GpuTest : public ::testing::Test {
   }
 };
 
-// The kernels on validated_device() for a scene, without a limit of buffers: made once in a process
-// for all scenes of one plan, as a driver takes longer to make them than to trace a small image.
-std::shared_ptr<const TracerKernels> shared_kernels(const BakedScene& scene,
-                                                    const KernelChoice& choice);
+// A tracer of a scene. On validated_device(), and without a limit of buffers, all scenes of one
+// plan share their kernels while the process lives: a driver takes longer to make them than to
+// trace a small image.
+VulkanTracer tracer_of(const BakedScene& scene, uint32_t width, uint32_t height,
+                       const KernelChoice& choice, std::size_t buffer_limit = kNoLimit,
+                       const gpu::Device& device = validated_device());
 
 // One frame with AOVs and counts.
 Frame trace(const BakedScene& baked, const TraceSettings& settings);

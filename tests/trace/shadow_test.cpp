@@ -56,24 +56,13 @@ KernelChoice with_shadows(Accel accel) {
   return {SOLVER_ROBUST, true, true, accel, true};
 }
 
-Frame render(VulkanTracer tracer, const Lit& lit) {
+Frame trace(const Lit& lit, const KernelChoice& choice, std::size_t buffer_limit = kNoLimit,
+            const gpu::Device& device = test::validated_device()) {
+  VulkanTracer tracer =
+      test::tracer_of(lit.scene, lit.params.width, lit.params.height, choice, buffer_limit, device);
   Frame frame;
   tracer.render(lit.params, frame);
   return frame;
-}
-
-// With kernels of its own.
-Frame trace(const Lit& lit, const KernelChoice& choice, std::size_t buffer_limit,
-            const gpu::Device& device = test::validated_device()) {
-  return render(
-      VulkanTracer(device, lit.scene, lit.params.width, lit.params.height, choice, buffer_limit),
-      lit);
-}
-
-Frame trace(const Lit& lit, const KernelChoice& choice) {
-  return render(VulkanTracer(test::validated_device(), lit.scene, lit.params.width,
-                             lit.params.height, choice, test::shared_kernels(lit.scene, choice)),
-                lit);
 }
 
 // Whether a pixel shows the surface with ambient light alone.
