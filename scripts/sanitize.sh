@@ -1,16 +1,17 @@
 #!/bin/bash
-# Runs tests under g++'s sanitizers, on the driver that is installed:
-#   scripts/sanitize.sh [address|thread] [ctest's arguments]
+# Runs tests under g++'s sanitizers and under valgrind, on the driver that is installed:
+#   scripts/sanitize.sh [address|thread|unset] [ctest's arguments]
 # address: memory and undefined behaviour; every test but those named below and the slow ones. thread: those in which several
-# threads work. Without a word both. About an hour; what they say goes to standard output, and a report fails its test.
+# threads work. unset: values that nothing has set, by valgrind, in what reads files that others make; five minutes, without
+# ctest. Without a word all three. About an hour; what they say goes to standard output, and a report fails its test.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-kinds=(address thread)
-if [ "${1:-}" = address ] || [ "${1:-}" = thread ]; then
+kinds=(address thread unset)
+if [[ " ${kinds[*]} " == *" ${1:-none} "* ]]; then
   kinds=("$1")
   shift
 fi
-scripts/setup.sh build test
+scripts/setup.sh build test memory
 
 # Of libraries of Debian; the drivers among them, and what they leave.
 export LSAN_OPTIONS=suppressions=$PWD/tests/sanitizers/leaks.txt:print_suppressions=0
@@ -30,6 +31,17 @@ for kind in "${kinds[@]}"; do
       preset=tsan
       # LLVM's compiler in the driver has races of its own: what has no driver.
       choice=(--tests-regex '^(Threads|ParallelRows|OracleFrame|SubpatchBounds|PatchBounds|LoadedModelTest|KernelCompiler|ErrorOverlayTest|TemporaryNames|FlatMesh|BuildMesh)\.')
+      ;;
+    unset)
+      cmake --preset release -DBUILD_TESTING=ON >/dev/null
+      cmake --build --preset release --target unit_tests
+      # Not what measures memory. The tests have an operator new of their own, which fails when it is told to, and whose
+      # memory the libraries free.
+      valgrind --quiet --error-exitcode=1 --leak-check=no --track-origins=yes --show-mismatched-frees=no \
+        build/release/unit_tests --gtest_filter="$(printf '%s.*:' FuzzRegressions GltfFile ObjFile ModelFile BuildMesh \
+          Triangulate ImageChannels ReadAttributes ExrPixels OpenExr WriteExr WritePng RayFile HitFile \
+          CameraPath Document ReadFile)-ModelFile.ReadsInSixTimesItsSize"
+      continue
       ;;
   esac
   cmake --preset $preset >/dev/null

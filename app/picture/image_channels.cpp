@@ -10,6 +10,7 @@
 
 #include "app/base/error.h"
 #include "app/frame/frame.h"
+#include "app/picture/exr_pixels.h"
 #include "app/picture/image_reader.h"
 #include "app/picture/open_exr.h"
 #include "app/picture/png_pixels.h"
@@ -46,8 +47,7 @@ std::vector<uint32_t> exr_bits(const fs::path& path, Imf::InputFile& file,
   Imf::FrameBuffer buffer;
   buffer.insert(name, Imf::Slice::Make(type, bits.data(), window, sizeof(uint32_t),
                                        sizeof(uint32_t) * width));
-  file.setFrameBuffer(buffer);
-  file.readPixels(window.min.y, window.max.y);
+  read_pixels(file, buffer);
   return bits;
 }
 

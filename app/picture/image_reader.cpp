@@ -16,6 +16,7 @@
 #include "app/base/error.h"
 #include "app/base/read_file.h"
 #include "app/base/srgb.h"
+#include "app/picture/exr_pixels.h"
 #include "app/picture/image_file.h"
 #include "app/picture/open_exr.h"
 #include "app/picture/png_pixels.h"
@@ -105,8 +106,7 @@ Frame read_exr(const fs::path& path) {
     for (const Slot& slot : aovs) {
       if (with_aovs) insert(buffer, slot, window, frame.width);
     }
-    file.setFrameBuffer(buffer);
-    file.readPixels(window.min.y, window.max.y);
+    read_pixels(file, buffer);
     if (!with_aovs) frame.aovs.clear();
     for (vec4& color : frame.colors) {
       for (int k = 0; k < 3; ++k) color[k] = srgb_from_linear(color[k]);

@@ -90,11 +90,11 @@ bool has_size_of_type(std::ifstream& file, const std::string& type, std::streamo
   return type == "preview" ? is_preview(bytes) : is_list_of_texts(bytes);
 }
 
-// Refuses a file whose header has an attribute that is larger than the file, or not as large as
-// its type, for which OpenEXR would take memory: each is a name, a type, a size and so many bytes;
-// an empty name ends a header, an empty header those of a file of many parts. Other mistakes are
-// left to OpenEXR.
-void expect_attributes(const std::filesystem::path& path) {
+}  // namespace
+
+// Each attribute is a name, a type, a size and so many bytes; an empty name ends a header, an empty
+// header those of a file of many parts.
+std::streamoff end_of_headers(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   const std::streamoff end = file.tellg();
   file.seekg(4);
@@ -107,23 +107,22 @@ void expect_attributes(const std::filesystem::path& path) {
   bool is_first = true;
   while (std::getline(file, name, '\0')) {
     if (name.empty()) {
-      if (is_first || (version & many_parts) == 0) return;
+      if (is_first || (version & many_parts) == 0) return file.tellg();
       is_first = true;
       continue;
     }
     is_first = false;
     if (!std::getline(file, type, '\0') ||
         !file.read(reinterpret_cast<char*>(&size), sizeof(size))) {
-      return;
+      return end;
     }
     if (size < 0 || size > end - file.tellg() || !has_size_of_type(file, type, size)) {
       throw std::runtime_error("its header is damaged or cut off");
     }
     file.seekg(size, std::ios::cur);
   }
+  return end;
 }
-
-}  // namespace
 
 Imf::InputFile open_exr(const std::filesystem::path& path) {
   [[maybe_unused]] static const bool is_limited = [] {
@@ -132,7 +131,7 @@ Imf::InputFile open_exr(const std::filesystem::path& path) {
     Imf::Header::setMaxTileSize(largest, largest);
     return true;
   }();
-  expect_attributes(path);
+  end_of_headers(path);
   return Imf::InputFile(path.c_str());
 }
 

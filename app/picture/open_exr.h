@@ -5,6 +5,7 @@
 
 #include <exception>
 #include <filesystem>
+#include <ios>
 #include <string>
 
 #include "app/base/error.h"
@@ -15,6 +16,11 @@ namespace trisect {
 // machine has memory for, and OpenEXR takes memory for a row at once. The limit is OpenEXR's own
 // and from then on the process's. Throws what OpenEXR throws.
 Imf::InputFile open_exr(const std::filesystem::path& path);
+
+// Where in the file its headers end; its end if they are cut off. Throws std::runtime_error if an
+// attribute is larger than the file, or not as large as its type, for which OpenEXR would take
+// memory. Other mistakes are left to OpenEXR.
+std::streamoff end_of_headers(const std::filesystem::path& path);
 
 // "FILE: could not be read: WHY." why: as OpenEXR has it, which may name the file again: 'Cannot
 // read image file "a.exr". '

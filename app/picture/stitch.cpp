@@ -18,6 +18,7 @@
 #include "app/base/message.h"
 #include "app/frame/frame.h"
 #include "app/picture/exr_output.h"
+#include "app/picture/exr_pixels.h"
 #include "app/picture/image_reader.h"
 #include "app/picture/open_exr.h"
 #include "app/picture/png_pixels.h"
@@ -201,10 +202,7 @@ class ExrChannels {
     }
   }
 
-  void read(Imf::InputFile& file) const {
-    file.setFrameBuffer(slices_);
-    file.readPixels(file.header().dataWindow().min.y, file.header().dataWindow().max.y);
-  }
+  void read(Imf::InputFile& file) const { read_pixels(file, slices_); }
 
   [[nodiscard]] const Imf::FrameBuffer& slices() const { return slices_; }
 
@@ -242,8 +240,7 @@ void read_to_the_end(const fs::path& path) {
     char* base = row.data() - window.min.x * static_cast<std::ptrdiff_t>(size_of(type));
     slices.insert(at.name(), Imf::Slice(type, base, size_of(type), 0));
   }
-  file.setFrameBuffer(slices);
-  file.readPixels(window.min.y, window.max.y);
+  read_pixels(file, slices);
 }
 
 void stitch_exr(const std::vector<fs::path>& parts, const AtomicFile& file) {
