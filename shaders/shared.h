@@ -213,6 +213,7 @@ const uint BVH_LINK_BYTES = 4u;
 // The output buffers hold `rows` rows of the image from first_row on.
 struct TilePush {
   uint first_group;
+  uint stride;  // from each run of workgroups to the one after it (workgroup_order.glsl)
   uint first_row;
   uint rows;
   // For begin_part.comp alone.

@@ -1,4 +1,5 @@
 // The main function of kernels that trace one ray per invocation: new rays in a frame's first pass, paused rays after it.
+#include "workgroup_order.glsl"
 
 // The tile in which a pixel lies, counted from the first tile of the band.
 uint tile_of(uvec2 pixel) {
@@ -8,7 +9,7 @@ uint tile_of(uvec2 pixel) {
 // The pixel of an invocation in the first pass. It may lie outside of the image, whose size need not be a multiple of the
 // workgroup's.
 uvec2 new_pixel() {
-  uint group = push.first_group + gl_WorkGroupID.x;
+  uint group = GROUP_IN_TURN;
   uint columns = tiles_across(params.width);
   return uvec2(group % columns, group / columns) * TILE_SIZE + gl_LocalInvocationID.xy;
 }

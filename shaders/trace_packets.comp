@@ -15,6 +15,7 @@ layout(local_size_x = TILE_SIZE * TILE_SIZE) in;
 
 #include "frame_buffers.glsl"
 
+#include "workgroup_order.glsl"
 #include "rays.glsl"
 #include "bvh_candidates.glsl"
 #include "trace.glsl"
@@ -27,7 +28,7 @@ layout(local_size_x = TILE_SIZE * TILE_SIZE) in;
 #include "packets.glsl"
 
 void main() {
-  uvec2 pixel = pixel_of_tile(push.first_group + gl_WorkGroupID.x, gl_LocalInvocationIndex);
+  uvec2 pixel = pixel_of_tile(GROUP_IN_TURN, gl_LocalInvocationIndex);
   precise PixelRay ray = ray_of(pixel);
   precise Traversal traversal = begin_pixel_traversal(pixel, 0);
   Packet packet = packet_of(ray, traversal.hit.z != TRAVERSAL_ENDED);

@@ -11,6 +11,7 @@
 layout(local_size_x = TILE_SIZE * TILE_SIZE) in;
 
 #include "frame_buffers.glsl"
+#include "workgroup_order.glsl"
 #include "rays.glsl"
 #include "bvh_candidates.glsl"
 #include "trace.glsl"
@@ -21,7 +22,7 @@ layout(local_size_x = TILE_SIZE * TILE_SIZE) in;
 #include "stack_traversal.glsl"
 
 void main() {
-  uvec2 pixel = pixel_of_tile(push.first_group + gl_WorkGroupID.x, gl_LocalInvocationIndex);
+  uvec2 pixel = pixel_of_tile(GROUP_IN_TURN, gl_LocalInvocationIndex);
   if (pixel.x >= params.width || pixel.y >= params.height) return;
   precise PixelRay ray = ray_of(pixel);
   precise Traversal traversal = begin_pixel_traversal(pixel, int(state.now.steps));

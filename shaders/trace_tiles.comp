@@ -25,6 +25,7 @@ layout(local_size_x = TILE_SIZE * TILE_SIZE) in;
 layout(std430, binding = BINDING_PROJECTED) readonly restrict buffer ProjectedBlock { uvec4 projected_words[]; };
 #endif
 
+#include "workgroup_order.glsl"
 #include "rays.glsl"
 #include "tile_candidates.glsl"
 #include "trace.glsl"
@@ -146,7 +147,7 @@ float least_of(vec4 a) { return min(min(a.x, a.y), min(a.z, a.w)); }
 uint least_of(uvec4 a) { return min(min(a.x, a.y), min(a.z, a.w)); }
 
 void main() {
-  uint tile = tile_order[push.first_group + gl_WorkGroupID.x];
+  uint tile = tile_order[GROUP_IN_TURN];
   uvec2 pixel = pixel_of_tile(tile, gl_LocalInvocationIndex) + uvec2(0u, push.first_row);
   vec2 position = vec2(pixel) + vec2(0.5);
   vec2 least = vec2(subgroupMin(position.x), subgroupMin(position.y));

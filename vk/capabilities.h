@@ -19,7 +19,7 @@ struct KernelNeeds {
   static constexpr uint32_t kSharedBytes = 1024;   // of a workgroup
   static constexpr uint32_t kStorageBuffers = 12;  // of a stage, which are those of its one set
   static constexpr uint32_t kUniformBuffers = 2;
-  static constexpr uint32_t kPushBytes = 32;
+  static constexpr uint32_t kPushBytes = 36;
   // The buffers of tile lists count on as many bytes in one binding.
   static constexpr uint32_t kStorageRange = 128U << 20U;
 };

@@ -56,6 +56,11 @@ class Device {
   // of subgroups.
   [[nodiscard]] uint32_t subgroup_size() const { return subgroups_.size; }
 
+  // Whether it is processors: kernels run on threads of the host.
+  [[nodiscard]] bool is_processor() const {
+    return capabilities_.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+  }
+
   // Whether kernels can reach buffers by their addresses.
   [[nodiscard]] bool has_addresses() const { return address_of_ != nullptr; }
   // Whether kernels should load by addresses what they could load from bindings.

@@ -20,6 +20,11 @@ namespace {
 // Bytes moved between host and device at a time.
 constexpr std::size_t kStagingBytes = std::size_t{32} << 20U;
 
+// On a device that is processors runs of workgroups that follow each other are so far apart: up to
+// that many threads have a share of every part of the image each. On others their scene stays in
+// caches if they are neighbours.
+constexpr uint32_t kStrideOnProcessors = 16;
+
 std::optional<TileLists> lists_for(const gpu::Device& device, const BakedScene& scene,
                                    const KernelChoice& choice, uint32_t width, uint32_t band_rows,
                                    std::size_t buffer_limit) {
@@ -231,6 +236,7 @@ void VulkanTracer::record_frame(const TraceParams& params) {
 void VulkanTracer::record_part(const BandParts::Part& part, uint32_t first_row, uint32_t rows) {
   const bool listed = tiles_.has_value() && !part.shadows;
   const TilePush push{.first_group = part.first,
+                      .stride = device_.is_processor() ? kStrideOnProcessors : 1,
                       .first_row = first_row,
                       .rows = rows,
                       .groups = part.count,
@@ -249,7 +255,7 @@ void VulkanTracer::record_part(const BandParts::Part& part, uint32_t first_row, 
 
 std::optional<double> VulkanTracer::finish_rays(const BandParts::Part& part, uint32_t first_row,
                                                 uint32_t rows, const KeepGoing& keep_going) {
-  const TilePush push{.first_group = part.first, .first_row = first_row, .rows = rows};
+  const TilePush push{.first_group = part.first, .stride = 1, .first_row = first_row, .rows = rows};
   const std::span<const std::byte> bytes = std::as_bytes(std::span(&push, 1));
   double gpu_ms = 0.0;
   for (QueueState state = image_.queue.state(); state.now.resumed > 0;

@@ -172,13 +172,13 @@ std::optional<double> Tracer::compute_band(const Program& program, uint32_t firs
   for (uint32_t group = groups.begin; group < groups.end;) {
     const uint32_t count = std::min({budget_.groups(), groups.end - group, groups.part_limit()});
     const Stopwatch watch;
-    run_until_finished(RayQueue::kSteps, groups.part_limit() * kGroupRays,
-                       [&](const QueuePass& pass) {
-                         const uint32_t submitted =
-                             pass.pass == 0 ? count : (pass.resumed + kGroupRays - 1) / kGroupRays;
-                         return submit(pass, {.first_group = group, .first_row = first_row},
-                                       [&] { glDispatchCompute(submitted, 1, 1); });
-                       });
+    run_until_finished(
+        RayQueue::kSteps, groups.part_limit() * kGroupRays, [&](const QueuePass& pass) {
+          const uint32_t submitted =
+              pass.pass == 0 ? count : (pass.resumed + kGroupRays - 1) / kGroupRays;
+          return submit(pass, {.first_group = group, .stride = 1, .first_row = first_row},
+                        [&] { glDispatchCompute(submitted, 1, 1); });
+        });
     const double ms = watch.milliseconds();
     total_ms += ms;
     group += count;

@@ -37,7 +37,7 @@ static_assert(sizeof(PausedRay) == 80);
 static_assert(offsetof(PausedRay, triangle) == 16);
 static_assert(offsetof(PausedRay, pending) == 48);
 static_assert(sizeof(CastPush) == 8);
-static_assert(sizeof(TilePush) == 32);
+static_assert(sizeof(TilePush) == 36);
 static_assert(sizeof(ProjectedSubpatch) == 192);
 static_assert(offsetof(ProjectedSubpatch, triangle) == 44);
 static_assert(offsetof(ProjectedSubpatch, P0) == 64);

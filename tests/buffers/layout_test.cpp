@@ -249,6 +249,7 @@ TEST(Layout, OutputsAndPushConstants) {
   const Held push = held_by(compiler, resources.push_constant_buffers[0]);
   EXPECT_EQ(push.stride, sizeof(TilePush));
   EXPECT_EQ(push.offsets, (Offsets{{"first_group", offsetof(TilePush, first_group)},
+                                   {"stride", offsetof(TilePush, stride)},
                                    {"first_row", offsetof(TilePush, first_row)},
                                    {"rows", offsetof(TilePush, rows)},
                                    {"groups", offsetof(TilePush, groups)},
