@@ -46,8 +46,8 @@ std::optional<int64_t> rows_in_block(Imf::Compression compression) {
 std::size_t unpacked_from_runs(std::string_view packed) {
   std::size_t unpacked = 0;
   for (std::size_t at = 0; at < packed.size();) {
-    const auto run = static_cast<signed char>(packed[at]);
-    const std::size_t count = run < 0 ? static_cast<std::size_t>(-run) : std::size_t{1} + run;
+    const int run = static_cast<signed char>(packed[at]);
+    const auto count = static_cast<std::size_t>(run < 0 ? -run : run + 1);
     unpacked += count;
     at += run < 0 ? 1 + count : 2;
   }
