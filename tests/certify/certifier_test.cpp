@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/bake/subpatch_bounds.h"
 #include "app/certify/certified_picture.h"
 #include "app/dispatch/cpu_tracer.h"
 #include "app/dispatch/trace_settings.h"
