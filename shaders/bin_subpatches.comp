@@ -1,7 +1,7 @@
 #version 450
 // Counts, for every tile of the band, the subpatches whose projections may overlap it; or, with FILLS, enters them into the
-// tiles' lists, for which fill_sky.comp has made room. Invocation x looks at subpatch x; workgroup row y looks at BIN_ROWS
-// rows of tiles.
+// tiles' lists, for which fill_sky.comp has made room. Invocation x looks at subpatch x, workgroup row y at its share of the
+// band's rows of tiles.
 #extension GL_GOOGLE_include_directive : require
 #include "language.h"
 #include "shared.h"
@@ -27,20 +27,22 @@ int tile_along(float x, int first, int count) {
 void main() {
   uint subpatch = gl_GlobalInvocationID.x;
   if (subpatch >= params.subpatch_count || subpatches[subpatch].skip > 0u) return;
-  ProjectedSubpatch projection = projected[subpatch];
   int columns = int(tiles_across(params.width));
-  int band_rows = int(tiles_across(push.rows));
+  uint band_rows = tiles_across(push.rows);
+  int share = int((band_rows + gl_NumWorkGroups.y - 1u) / gl_NumWorkGroups.y);
   int first_row = int(push.first_row / TILE_SIZE);
-  int top = int(gl_WorkGroupID.y) * BIN_ROWS;
+  int top = int(gl_WorkGroupID.y) * share;
   // Half a pixel is more than the rounding errors of a projected position.
-  int left = tile_along(projection.box.x - 0.5, 0, columns);
-  int right = min(tile_along(projection.box.z + 0.5, 0, columns), columns - 1);
-  int row = tile_along(projection.box.y - 0.5, first_row + top, BIN_ROWS);
-  int bottom = min(tile_along(projection.box.w + 0.5, first_row + top, BIN_ROWS),
-                   first_row + min(top + BIN_ROWS, band_rows) - 1);
+  vec4 box = projected[subpatch].box;
+  int left = tile_along(box.x - 0.5, 0, columns);
+  int right = min(tile_along(box.z + 0.5, 0, columns), columns - 1);
+  int row = tile_along(box.y - 0.5, first_row + top, share);
+  int bottom = min(tile_along(box.w + 0.5, first_row + top, share), first_row + min(top + share, int(band_rows)) - 1);
+  if (row > bottom || left > right) return;
+  ProjectedSubpatch projection = projected[subpatch];
   vec2 half_size = vec2(0.5 * float(TILE_SIZE));
   int column = left;
-  while (row <= bottom && left <= right) {
+  while (row <= bottom) {
     vec2 middle = (vec2(column, row) + vec2(0.5)) * float(TILE_SIZE);
     if (overlaps_rect(projection, middle, half_size)) {
       uint tile = uint((row - first_row) * columns + column);

@@ -349,10 +349,8 @@ const float ERROR_WRONG = -3.0;      // a hit instead of a miss, or the other wa
 // entries of all lists have 32-bit indices: a band of an image has at most 2^22 tiles, for its
 // colours lie in a buffer of at most 2^32 bytes.
 #define TILE_CAPACITY 1024
-// Subpatches that a workgroup projects or enters into lists, one for each invocation, and the rows
-// of tiles that an invocation goes through.
+// Subpatches that a workgroup projects or enters into lists, one for each invocation.
 #define SUBPATCH_GROUP_SIZE 64
-#define BIN_ROWS 16
 // Cast rays of a workgroup.
 #define CAST_SIZE 64
 

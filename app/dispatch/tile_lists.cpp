@@ -29,6 +29,7 @@ TileLists::Tiles::Tiles(const gpu::Device& device, uint32_t width, uint32_t band
 TileLists::TileLists(const gpu::Device& device, uint32_t subpatches, uint32_t width,
                      uint32_t band_rows, std::size_t buffer_limit)
     : groups_((subpatches + SUBPATCH_GROUP_SIZE - 1) / SUBPATCH_GROUP_SIZE),
+      rows_of_invocation_(device.is_processor() ? UINT16_MAX : 16),
       buffer_limit_(buffer_limit),
       projected_(device, std::size_t{subpatches} * sizeof(ProjectedSubpatch),
                  device.loads_fast_by_address() ? gpu::Memory::addressed : gpu::Memory::device,
@@ -49,7 +50,7 @@ void TileLists::project(gpu::Commands& commands, const TracerKernels& kernels,
 void TileLists::bin(gpu::Commands& commands, const TracerKernels& kernels,
                     const gpu::DescriptorSet& descriptors, uint32_t width, uint32_t first_row,
                     uint32_t rows) const {
-  const uint32_t row_groups = (tiles_across(rows) + BIN_ROWS - 1) / BIN_ROWS;
+  const uint32_t row_groups = (tiles_across(rows) + rows_of_invocation_ - 1) / rows_of_invocation_;
   const TilePush push{.first_row = first_row, .rows = rows};
   commands.clear(tiles_.lists);
   commands.clear(totals_);

@@ -76,6 +76,9 @@ class TileLists {
   };
 
   uint32_t groups_;  // workgroups, of SUBPATCH_GROUP_SIZE subpatches each
+  // Rows of tiles that an invocation goes through to bin a subpatch. Processors have no use for
+  // more invocations.
+  uint32_t rows_of_invocation_;
   std::size_t buffer_limit_;
   gpu::Buffer projected_;
   Tiles tiles_;
