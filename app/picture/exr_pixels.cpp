@@ -42,14 +42,15 @@ std::optional<int64_t> rows_in_block(Imf::Compression compression) {
   }
 }
 
-// Of runs: a byte n and one to be repeated n + 1 times, or -n and as many bytes as they are.
+// Of runs: a byte n < 128 and one to be repeated n + 1 times, or 256 - n and n bytes as they are.
 std::size_t unpacked_from_runs(std::string_view packed) {
   std::size_t unpacked = 0;
   for (std::size_t at = 0; at < packed.size();) {
-    const int run = static_cast<signed char>(packed[at]);
-    const auto count = static_cast<std::size_t>(run < 0 ? -run : run + 1);
+    const std::size_t n = static_cast<unsigned char>(packed[at]);
+    const bool is_repeated = n < 128;
+    const std::size_t count = is_repeated ? n + 1 : 256 - n;
     unpacked += count;
-    at += run < 0 ? 1 + count : 2;
+    at += is_repeated ? 2 : 1 + count;
   }
   return unpacked;
 }

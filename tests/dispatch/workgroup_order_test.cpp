@@ -13,15 +13,18 @@ namespace {
 
 std::vector<uint32_t> order_of(uint32_t count, uint32_t stride) {
   std::vector<uint32_t> order(count);
-  for (uint32_t turn = 0; turn < count; ++turn)
+  for (uint32_t turn = 0; turn < count; ++turn) {
     order[turn] = workgroup_in_turn(turn, count, stride);
+  }
   return order;
 }
 
 TEST(WorkgroupOrder, IsRoundsOfOneStride) {
   const auto runs = [](uint32_t count, uint32_t stride) {
     std::vector<uint32_t> order(count);
-    for (uint32_t turn = 0; turn < count; ++turn) order[turn] = in_turn(turn, count, stride);
+    for (uint32_t turn = 0; turn < count; ++turn) {
+      order[turn] = in_turn(turn, count, stride);
+    }
     return order;
   };
   EXPECT_EQ(runs(10, 4), (std::vector<uint32_t>{0, 4, 8, 1, 5, 9, 2, 6, 3, 7}));

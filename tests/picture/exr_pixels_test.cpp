@@ -59,7 +59,8 @@ struct Kind {
 Pixels some_pixels() {
   Pixels pixels;
   for (std::size_t i = 0; i < pixels.red.size(); ++i) {
-    pixels.red[i] = static_cast<float>(i / kWidth);
+    const std::size_t row = i / kWidth;
+    pixels.red[i] = static_cast<float>(row);
     pixels.green[i] = i % kWidth < 4 ? 1.0F : 0.5F;
   }
   return pixels;
@@ -117,7 +118,7 @@ void write_short_block(const std::filesystem::path& path, std::string bytes, con
   std::size_t head = kind.layout == Layout::tiles ? 16 : 4;
   if (kind.layout == Layout::parts) head += 4;
   uint64_t at = 0;
-  std::memcpy(&at, bytes.data() + end_of_headers(path) + 8 * i, sizeof(at));
+  std::memcpy(&at, bytes.data() + end_of_headers(path) + std::ptrdiff_t{8} * i, sizeof(at));
   const std::string packed = packed_zeros(kind.compression, 24);
   const auto size = static_cast<uint32_t>(packed.size());
   std::memcpy(bytes.data() + at + head, &size, sizeof(size));
