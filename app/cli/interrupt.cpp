@@ -4,8 +4,10 @@
 
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <exception>
 #include <new>
+#include <optional>
 
 #include "app/base/error.h"
 #include "app/base/temporary_names.h"
@@ -16,11 +18,26 @@ namespace {
 volatile std::sig_atomic_t signalled = 0;
 bool is_on_terminal = false;
 
+// Brings SIGALRM; nothing if the system has no more of them.
+std::optional<timer_t> timer;
+// So that the program is gone within a second, as it promises.
+constexpr long kPatienceMs = 800;
+
+// 0: never.
+void bring_alarm_after(long ms) {
+  const itimerspec once{{0, 0}, {0, ms * 1'000'000}};
+  if (timer) {
+    timer_settime(*timer, 0, &once, nullptr);
+  } else {
+    alarm(ms > 0 ? 1 : 0);
+  }
+}
+
 // The handlers call only what is safe in them.
 
 void on_signal(int /*number*/) {
   // Who ends a group of processes may signal twice, as timeout does.
-  if (signalled == 0) alarm(1);
+  if (signalled == 0) bring_alarm_after(kPatienceMs);
   signalled = 1;
 }
 
@@ -32,6 +49,8 @@ void on_alarm(int /*number*/) {
 
 void catch_interrupts() {
   is_on_terminal = isatty(STDERR_FILENO) != 0;
+  timer_t made{};
+  if (timer_create(CLOCK_MONOTONIC, nullptr, &made) == 0) timer = made;
   struct sigaction action {};
   action.sa_handler = on_alarm;
   sigaction(SIGALRM, &action, nullptr);
@@ -58,7 +77,7 @@ void tell_what_nothing_catches() {
 }
 
 void ends_in_order() {
-  alarm(0);
+  bring_alarm_after(0);
 }
 
 void end_at_once(int code, const char* message) {

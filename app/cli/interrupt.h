@@ -16,7 +16,7 @@ class Interrupted : public std::runtime_error {
 };
 
 // Installs the handlers: SIGINT, SIGTERM, SIGHUP or SIGQUIT is remembered, and if the program has
-// not ended a second later, as it waits for a driver or a library, end_at_once() ends it. A file
+// not ended 0.8 s later, as it waits for a driver or a library, end_at_once() ends it. A file
 // that becomes larger than allowed (SIGXFSZ) is an error of writing.
 void catch_interrupts();
 

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 using test::CommandInFolder;
 
 constexpr int kSignals = 100;
-// One second by alarm() (app/cli/interrupt.h), and as much for a busy machine.
+// 0.8 s by a timer (app/cli/interrupt.h), and more for a busy machine.
 constexpr int kMostMs = 2000;
 
 bool is_whole_output(const fs::path& file, const std::string& content) {
