@@ -134,8 +134,12 @@ class Blocks {
   int64_t rows_;         // of a tile or a block of rows
 };
 
-// Refuses a file of which a block unpacks to fewer bytes than its pixels have. Other mistakes are
-// left to OpenEXR.
+[[noreturn]] void fail_incomplete() {
+  throw std::runtime_error("some of its pixels are missing");
+}
+
+// Refuses a file of which a block unpacks to fewer bytes than its pixels have, or has no place in
+// the table, for OpenEXR would look for it. Other mistakes are left to OpenEXR.
 void expect_whole_blocks(const std::string& path, const Imf::Header& header, bool has_parts) {
   const Imf::Compression compression = header.compression();
   const std::optional<int64_t> rows = rows_in_block(compression);
@@ -148,10 +152,11 @@ void expect_whole_blocks(const std::string& path, const Imf::Header& header, boo
   std::string head(head_bytes, '\0');
   std::string packed;
   for (int64_t i = 0; i < blocks.count(); ++i) {
-    uint64_t at = 0;
+    int64_t at = 0;
     file.seekg(table + i * kOffsetBytes);
     if (!file.read(reinterpret_cast<char*>(&at), sizeof(at))) return;
-    file.seekg(static_cast<std::streamoff>(at));
+    if (at <= 0) fail_incomplete();
+    file.seekg(at);
     if (!file.read(head.data(), static_cast<std::streamsize>(head.size()))) return;
     const std::size_t size = word_at(head, head.size() - kSizeBytes);
     const std::size_t whole = blocks.bytes(i);
@@ -159,9 +164,7 @@ void expect_whole_blocks(const std::string& path, const Imf::Header& header, boo
     if (size >= whole) continue;
     packed.resize(size);
     if (!file.read(packed.data(), static_cast<std::streamsize>(size))) return;
-    if (unpacked_size(compression, packed).value_or(whole) < whole) {
-      throw std::runtime_error("some of its pixels are missing");
-    }
+    if (unpacked_size(compression, packed).value_or(whole) < whole) fail_incomplete();
   }
 }
 
