@@ -59,7 +59,7 @@ set grid
 set xlabel "patches"
 set ylabel "milliseconds a frame"
 set format x "10^{%L}"
-set key left top
+set key left top noenhanced
 plot "$work/data" using 1:2 with linespoints pt 7 title "${name[newer]}", \
      "$work/data" using 1:3 with linespoints pt 5 title "${name[stock]}"
 END
