@@ -3,6 +3,7 @@
 #include <ImfChannelList.h>
 #include <ImfHeader.h>
 #include <ImfTileDescription.h>
+#include <ImfVersion.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -138,41 +139,44 @@ class Blocks {
   throw std::runtime_error("some of its pixels are missing");
 }
 
-// Refuses a file of which a block unpacks to fewer bytes than its pixels have, or has no place in
-// the table, for OpenEXR would look for it. Other mistakes are left to OpenEXR.
-void expect_whole_blocks(const std::string& path, const Imf::Header& header, bool has_parts) {
+}  // namespace
+
+// Mistakes of another kind are left to OpenEXR.
+void expect_whole_blocks(const Imf::InputFile& file) {
+  const Imf::Header& header = file.header();
   const Imf::Compression compression = header.compression();
   const std::optional<int64_t> rows = rows_in_block(compression);
   if (!rows) return;
   const Blocks blocks(header, *rows);
-  const std::streamoff table = end_of_headers(path);
-  const std::size_t head_bytes = (has_parts ? kPartNumberBytes : 0) +
+  const std::streamoff table = end_of_headers(file.fileName());
+  const std::size_t head_bytes = (Imf::isMultiPart(file.version()) ? kPartNumberBytes : 0) +
                                  (blocks.are_tiles() ? kTilePlaceBytes : kRowBytes) + kSizeBytes;
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream stream(file.fileName(), std::ios::binary);
   std::string head(head_bytes, '\0');
   std::string packed;
   for (int64_t i = 0; i < blocks.count(); ++i) {
     int64_t at = 0;
-    file.seekg(table + i * kOffsetBytes);
-    if (!file.read(reinterpret_cast<char*>(&at), sizeof(at))) return;
+    stream.seekg(table + i * kOffsetBytes);
+    if (!stream.read(reinterpret_cast<char*>(&at), sizeof(at))) return;
     if (at <= 0) fail_incomplete();
-    file.seekg(at);
-    if (!file.read(head.data(), static_cast<std::streamsize>(head.size()))) return;
+    stream.seekg(at);
+    if (!stream.read(head.data(), static_cast<std::streamsize>(head.size()))) return;
     const std::size_t size = word_at(head, head.size() - kSizeBytes);
     const std::size_t whole = blocks.bytes(i);
     // What compression does not make smaller is stored as it is.
     if (size >= whole) continue;
     packed.resize(size);
-    if (!file.read(packed.data(), static_cast<std::streamsize>(size))) return;
+    if (!stream.read(packed.data(), static_cast<std::streamsize>(size))) return;
     if (unpacked_size(compression, packed).value_or(whole) < whole) fail_incomplete();
   }
 }
 
-}  // namespace
-
 void read_pixels(Imf::InputFile& file, const Imf::FrameBuffer& slices) {
-  constexpr int many_parts = 0x1000;
-  expect_whole_blocks(file.fileName(), file.header(), (file.version() & many_parts) != 0);
+  expect_whole_blocks(file);
+  read_known_pixels(file, slices);
+}
+
+void read_known_pixels(Imf::InputFile& file, const Imf::FrameBuffer& slices) {
   file.setFrameBuffer(slices);
   file.readPixels(file.header().dataWindow().min.y, file.header().dataWindow().max.y);
 }

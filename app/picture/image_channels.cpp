@@ -47,7 +47,7 @@ std::vector<uint32_t> exr_bits(const fs::path& path, Imf::InputFile& file,
   Imf::FrameBuffer buffer;
   buffer.insert(name, Imf::Slice::Make(type, bits.data(), window, sizeof(uint32_t),
                                        sizeof(uint32_t) * width));
-  read_pixels(file, buffer);
+  read_known_pixels(file, buffer);
   return bits;
 }
 
@@ -80,6 +80,7 @@ ImageChannels::ImageChannels(const fs::path& path) : path_(path) {
     with_exr(path, [&](const Imf::InputFile& file) {
       const Imf::ChannelList& channels = file.header().channels();
       for (auto at = channels.begin(); at != channels.end(); ++at) names_.emplace_back(at.name());
+      expect_whole_blocks(file);
     });
   } else {
     png_ = std::make_unique<const PngValues>(read_png_values(path));

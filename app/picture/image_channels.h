@@ -33,8 +33,8 @@ std::string window_text(const std::optional<ImageWindow>& window);
 // is no `--tile`.
 std::optional<ImageWindow> read_window(const std::filesystem::path& path);
 
-// A file of which a channel is read at a time. The constructor reads a PNG whole, of an EXR the
-// header only.
+// A file of which a channel is read at a time. The constructor reads a PNG whole; of an EXR it
+// looks whether all pixels are there.
 class ImageChannels {
  public:
   explicit ImageChannels(const std::filesystem::path& path);

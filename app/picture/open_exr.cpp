@@ -1,6 +1,7 @@
 #include "app/picture/open_exr.h"
 
 #include <ImfHeader.h>
+#include <ImfVersion.h>
 #include <fmt/format.h>
 
 #include <array>
@@ -98,16 +99,15 @@ std::streamoff end_of_headers(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   const std::streamoff end = file.tellg();
   file.seekg(4);
-  uint32_t version = 0;
+  int version = 0;
   file.read(reinterpret_cast<char*>(&version), sizeof(version));
-  constexpr uint32_t many_parts = 0x1000;
   std::string name;
   std::string type;
   int32_t size = 0;
   bool is_first = true;
   while (std::getline(file, name, '\0')) {
     if (name.empty()) {
-      if (is_first || (version & many_parts) == 0) return file.tellg();
+      if (is_first || !Imf::isMultiPart(version)) return file.tellg();
       is_first = true;
       continue;
     }

@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -20,6 +19,8 @@
 #include <string>
 #include <vector>
 
+#include "app/base/error.h"
+#include "app/picture/image_channels.h"
 #include "app/picture/open_exr.h"
 #include "tests/support/file_content.h"
 #include "tests/support/temporary_folder.h"
@@ -33,15 +34,19 @@ constexpr int kTop = -5;
 constexpr int kWidth = 21;
 constexpr int kHeight = 37;
 
+Imath::Box2i window() {
+  return {{kLeft, kTop}, {kLeft + kWidth - 1, kTop + kHeight - 1}};
+}
+
 // Values of a picture's two channels, and the places where OpenEXR reads and writes them.
 struct Pixels {
   std::vector<float> red = std::vector<float>(std::size_t{kWidth} * kHeight);
   std::vector<float> green = red;
 
-  Imf::FrameBuffer slices(Imf::PixelType type) {
-    const Imath::Box2i window({kLeft, kTop}, {kLeft + kWidth - 1, kTop + kHeight - 1});
+  Imf::FrameBuffer slices() {
     const auto slice = [&](std::vector<float>& values) {
-      return Imf::Slice::Make(type, values.data(), window, sizeof(float), sizeof(float) * kWidth);
+      return Imf::Slice::Make(Imf::FLOAT, values.data(), window(), sizeof(float),
+                              sizeof(float) * kWidth);
     };
     Imf::FrameBuffer buffer;
     buffer.insert("R", slice(red));
@@ -69,15 +74,14 @@ Pixels some_pixels() {
 }
 
 void write(const std::filesystem::path& path, const Kind& kind, Pixels pixels) {
-  Imf::Header header(Imath::Box2i({kLeft, kTop}, {kLeft + kWidth - 1, kTop + kHeight - 1}),
-                     Imath::Box2i({kLeft, kTop}, {kLeft + kWidth - 1, kTop + kHeight - 1}));
+  Imf::Header header(window(), window());
   header.compression() = kind.compression;
   header.channels().insert("R", Imf::Channel(Imf::FLOAT));
   header.channels().insert("G", Imf::Channel(Imf::FLOAT));
   if (kind.layout == Layout::tiles) {
     header.setTileDescription(Imf::TileDescription(8, 16, Imf::MIPMAP_LEVELS));
     Imf::TiledOutputFile file(path.c_str(), header);
-    file.setFrameBuffer(pixels.slices(Imf::FLOAT));
+    file.setFrameBuffer(pixels.slices());
     for (int level = 0; level < file.numLevels(); ++level) {
       file.writeTiles(0, file.numXTiles(level) - 1, 0, file.numYTiles(level) - 1, level);
     }
@@ -90,12 +94,12 @@ void write(const std::filesystem::path& path, const Kind& kind, Pixels pixels) {
     Imf::MultiPartOutputFile file(path.c_str(), headers.data(), 2);
     for (int i = 0; i < 2; ++i) {
       Imf::OutputPart part(file, i);
-      part.setFrameBuffer(pixels.slices(Imf::FLOAT));
+      part.setFrameBuffer(pixels.slices());
       part.writePixels(kHeight);
     }
   } else {
     Imf::OutputFile file(path.c_str(), header);
-    file.setFrameBuffer(pixels.slices(Imf::FLOAT));
+    file.setFrameBuffer(pixels.slices());
     file.writePixels(kHeight);
   }
 }
@@ -156,7 +160,7 @@ TEST(ExrPixels, AreAllThere) {
       Pixels read;
       const auto read_file = [&] {
         Imf::InputFile file = open_exr(path);
-        read_pixels(file, read.slices(Imf::FLOAT));
+        read_pixels(file, read.slices());
       };
       read_file();
       EXPECT_EQ(read.red, written.red);
@@ -169,6 +173,7 @@ TEST(ExrPixels, AreAllThere) {
       for (const int block : {0, 1, last}) {
         write_short_block(path, bytes, kind, block);
         expect_missing(read_file, block);
+        EXPECT_THROW(ImageChannels{path}, InputError) << block;
         write_without_place(path, bytes, block);
         expect_missing(read_file, block);
       }
@@ -187,7 +192,7 @@ TEST(ExrPixels, AreLeftToOpenExrWhereItCountsThem) {
     write_short_block(path, test::content_of(path), kind, 0);
     Imf::InputFile file = open_exr(path);
     Pixels read;
-    EXPECT_ANY_THROW(read_pixels(file, read.slices(Imf::FLOAT))) << compression;
+    EXPECT_ANY_THROW(read_pixels(file, read.slices())) << compression;
   }
 }
 
