@@ -21,48 +21,53 @@ tables() {
   grep '^|' "$work/sphere" | tail -n +3
 }
 
-# For every scene: how many times as fast the tiles are as something else.
-ratios() {
-  jq -rs --arg other "$2" '[.[].rows[]] | group_by([.surface, .patches, .model])[] |
-    (map(select(.contender == "tiles, robust"))[0]) as $tiles | map(select(.contender == $other))[0] as $other |
-    "\($tiles.surface), \($tiles.model | split("/")[-1] | rtrimstr(".obj")): \($other.ms.median / $tiles.ms.median * 10 | round / 10)"' \
-    "$work/$1-phong.json" "$work/$1-sphere.json" | paste -sd';' | sed 's/;/; /g'
-}
-
-# The median of a contender on a model, over that of the tiles; or, with a word more, the other way round.
+# How many times as fast the tiles are as another contender, on a driver, with a surface, on a model; or, with a word more, as
+# long.
 against_tiles() {
-  jq -rs --arg surface "$2" --arg model "assets/$3.obj" --arg other "$4" --arg inverse "${5:-}" '
+  jq -rs --arg surface "$2" --arg model "/$3.obj" --arg other "$4" --arg inverse "${5:-}" '
     [.[].rows[] | select(.surface == $surface and (.model | endswith($model)))] |
     (map(select(.contender == "tiles, robust"))[0].ms.median) as $tiles |
     (map(select(.contender == $other))[0].ms.median / $tiles) |
     if $inverse == "" then . else 1 / . end | . * 10 | round / 10' "$work/$1-phong.json" "$work/$1-sphere.json"
 }
 
+image="image only"
+thesis="thesis (list, bisect, Rank 10)"
+embree="Embree, packets of 16"
+
+# For every scene: how many times as fast the tiles are as a contender, on a driver.
+ratios() {
+  {
+    for model in "${phong[@]}"; do echo "phong, $model: $(against_tiles "$1" phong "$model" "$2")"; done
+    for model in "${sphere[@]}"; do echo "sphere, $model: $(against_tiles "$1" sphere "$model" "$2")"; done
+  } | paste -sd';' | sed 's/;/; /g'
+}
+
+# A row: what is compared, with which contender, the surface, the model, the goal; inverse: how long, not how fast.
+goal() {
+  echo "| $1 | $4 | $3 | $5 | $(against_tiles newer "$3" "$4" "$2" "${6:-}") | $(against_tiles stock "$3" "$4" "$2" "${6:-}") |"
+}
+
 goals() {
-  local model surface goal stock
+  local long="as long as an image only, at most" packets="as fast as Embree's packets, at least"
+  local way="as fast as the thesis, at least"
   echo '| tiles | model | surface | goal | Mesa 25.0.7 | Mesa 22.3.6 |'
   echo '|---|---|---|---|---|---|'
-  while read -r model surface goal; do
-    echo "| as long as an image only, at most | $model | $surface | $goal | $(against_tiles newer "$surface" "$model" "image only" inverse) | $(against_tiles stock "$surface" "$model" "image only" inverse) |"
-  done <<<'relief phong 4
-sphere-20 phong 5
-sphere-320 phong 5
-teapot phong 7
-sphere-20 sphere 10
-sphere-320 sphere 10'
-  while read -r model surface goal; do
-    echo "| as fast as Embree's packets, at least | $model | $surface | $goal | $(against_tiles newer "$surface" "$model" "Embree, packets of 16") | $(against_tiles stock "$surface" "$model" "Embree, packets of 16") |"
-  done <<<'sphere-20 phong 3
-relief phong 3
-teapot phong 3
-teapot-1000 phong 1.5
-sphere-20 sphere 1.5
-sphere-320 sphere 1.5'
-  while read -r model goal stock; do
-    echo "| as fast as the thesis, at least | $model | phong | $goal; $stock on 22.3.6 | $(against_tiles newer phong "$model" "thesis (list, bisect, Rank 10)") | $(against_tiles stock phong "$model" "thesis (list, bisect, Rank 10)") |"
-  done <<<'sphere-20 10 8
-sphere-80 18 20
-sphere-320 35 80'
+  goal "$long" "$image" phong relief 4 inverse
+  goal "$long" "$image" phong sphere-20 5 inverse
+  goal "$long" "$image" phong sphere-320 5 inverse
+  goal "$long" "$image" phong teapot 7 inverse
+  goal "$long" "$image" sphere sphere-20 10 inverse
+  goal "$long" "$image" sphere sphere-320 10 inverse
+  goal "$packets" "$embree" phong sphere-20 3
+  goal "$packets" "$embree" phong relief 3
+  goal "$packets" "$embree" phong teapot 3
+  goal "$packets" "$embree" phong teapot-1000 1.5
+  goal "$packets" "$embree" sphere sphere-20 1.5
+  goal "$packets" "$embree" sphere sphere-320 1.5
+  goal "$way" "$thesis" phong sphere-20 "10; 8 on 22.3.6"
+  goal "$way" "$thesis" phong sphere-80 "18; 20 on 22.3.6"
+  goal "$way" "$thesis" phong sphere-320 "35; 80 on 22.3.6"
 }
 
 # One line: what a frame by tiles does. What an image takes that has nothing else, of the same size, is not counted to it.
@@ -70,7 +75,7 @@ limit() {
   local model=$1 surface=$2 all none pixels
   measure newer "$model" 9 --surface "$surface" --accel tiles
   all=$(figure .gpu_ms.median)
-  none=$(jq "[.rows[] | select(.contender == \"image only\") | .ms.median] | add / length" "$work/newer-phong.json")
+  none=$(jq "[.rows[] | select(.contender == \"$image\") | .ms.median] | add / length" "$work/newer-phong.json")
   measure newer "$model" 1 --surface "$surface" --accel tiles --evals
   pixels=$(figure '.width * .height')
   jq -r --argjson all "$all" --argjson none "$none" --argjson pixels "$pixels" --argjson cores "$(nproc)" \
@@ -110,10 +115,10 @@ END
 
 How many times as fast the tiles are, on Mesa 25.0.7, then on 22.3.6:
 
-- as the thesis: $(ratios newer "thesis (list, bisect, Rank 10)").
-- as the thesis: $(ratios stock "thesis (list, bisect, Rank 10)").
-- as Embree's packets: $(ratios newer "Embree, packets of 16").
-- as Embree's packets: $(ratios stock "Embree, packets of 16").
+- as the thesis: $(ratios newer "$thesis").
+- as the thesis: $(ratios stock "$thesis").
+- as Embree's packets: $(ratios newer "$embree").
+- as Embree's packets: $(ratios stock "$embree").
 
 ## Goals
 
