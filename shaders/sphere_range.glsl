@@ -1,13 +1,11 @@
 // Ranges of the sphere surface's displacement sigma = sum w_i s_i (surface.glsl) and of its derivatives over a sub-triangle
-// of a patch, by interval arithmetic on the closed form. The kernels bound nonsmooth subpatches with them, which no
-// quadratic follows: sigma is not differentiable where lines begin to miss a vertex's sphere and where a height reaches its
-// limit. The host proves with the same text, in double precision, where subpatches are smooth and how far they are
-// displaced (app/surface/sphere_range.h).
+// of a patch, by interval arithmetic on the closed form. The kernels bound subpatches with them that no quadratic follows:
+// where what a height depends on changes fast, about points at which directions nearly vanish. The host proves with the same
+// text, in double precision, where subpatches are smooth and how far they are displaced (app/surface/sphere_range.h).
 //
-// Sigma is Lipschitz but where lines begin to miss a sphere. Between two points it therefore changes by a mean of elements
-// of its generalised gradient (Clarke 1983, "Optimization and Nonsmooth Analysis", theorem 2.3.7) along the segment, and a
-// range that holds the derivatives on both sides of such a curve bounds the change across it. Where lines begin to miss,
-// the derivatives are unbounded, and so is their range.
+// Sigma is Lipschitz where the directions do not vanish. Between two points it therefore changes by a mean of elements of
+// its generalised gradient (Clarke 1983, "Optimization and Nonsmooth Analysis", theorem 2.3.7) along the segment, and a
+// range that holds the derivatives on both sides of a curve on which they jump bounds the change across it.
 //
 // Roundings. In double precision every operation on ranges rounds outward, so only numbers computed without ranges need a
 // slack: dot products, with an error of gamma(3) |p| |q| whatever cancels in them (Higham, "Accuracy and Stability of
@@ -103,24 +101,43 @@ Range blend_range(Corners x, vec3 b, vec3 axis, vec4 data) {
   return range_clamp(blend, LEAST_BLEND, MOST_BLEND);
 }
 
-// Range of sphere_root, from the ranges of its A, B, C and of the square root of its discriminant.
-Range root_range(Range A, Range B, Range C, Range root) {
-  Range s = unbounded_range();
-  // (root - B) / A, whether the line meets the sphere or not.
-  if (A.lo > real(0.0)) s = range_quotient(range_sum(root, range_minus(B)), A);
-  if (A.hi < real(0.0)) s = range_quotient(range_sum(B, range_minus(root)), range_minus(A));
-  if (B.lo > real(0.0)) {
-    // -C / (B + root); where the line misses the sphere B^2 <= A C, so that -B / A lies between 0 and -C / B.
-    Range other = range_quotient(range_minus(C), range_sum(B, root));
-    if (root.lo <= real(0.0)) {
-      other = range_hull(range_hull(other, range_quotient(range_minus(C), B)), point_range(real(0.0)));
-    }
-    s = range_intersection(s, other);
-  }
-  return range_grown(s, RANGE_SLACK * range_magnitude(s));
+// Ranges of held_square, which grows with both, and of how far it is above d.
+Range held_square_range(Range d, Range least) {
+  real lo = held_square(d.lo, least.lo);
+  real hi = held_square(d.hi, least.hi);
+  return between(lo * (real(1.0) - RANGE_SLACK), hi * (real(1.0) + RANGE_SLACK));
 }
 
-// The ranges over a sub-triangle of what s_i and its derivatives are made of; names as in sphere_root and height_limit.
+real held_up(real d, real least) {
+  real short_of = max(least - d, real(0.0));
+  return d < real(0.0) ? real(0.5) * least - d : real(0.5) * short_of * short_of / least;
+}
+
+Range held_up_range(Range d, Range least) {
+  real lo = held_up(d.hi, least.lo);
+  real hi = held_up(d.lo, least.hi);
+  return between(lo * (real(1.0) - RANGE_SLACK), hi * (real(1.0) + RANGE_SLACK));
+}
+
+// Ranges of held_inverse, which is largest, 256 / 243, at 8 / 9, and of its slope, which has its extremes at 4 / 9 and 1.
+Range held_inverse_range(Range z) {
+  real a = held_inverse(z.lo);
+  real b = held_inverse(z.hi);
+  Range inverse = between(min(a, b), max(a, b));
+  if (z.lo < real(0.89) && z.hi > real(0.88)) inverse.hi = real(1.0535);
+  return range_grown(inverse, RANGE_SLACK * inverse.hi);
+}
+
+Range held_inverse_slope_range(Range z) {
+  real a = held_inverse_slope(z.lo);
+  real b = held_inverse_slope(z.hi);
+  Range slope = between(min(a, b), max(a, b));
+  if (z.lo < real(0.45) && z.hi > real(0.44)) slope.hi = real(1.7778);
+  if (z.lo <= real(1.0) && z.hi >= real(1.0)) slope.lo = real(-1.0);
+  return range_grown(slope, real(8.0) * RANGE_SLACK);
+}
+
+// The ranges over a sub-triangle of what s_i and its derivatives are made of; names as in SphereLine.
 struct HeightRange {
   Corners x;   // the base point seen from the vertex
   Corners D;
@@ -131,15 +148,20 @@ struct HeightRange {
   Range xx;
   Range xD;
   Range DD;
-  Range DN;
   Range A;
   Range B;
-  Range discriminant;
-  Range root;         // square root of the discriminant
-  Range s;            // the root of A s^2 + 2 B s + C
-  Range limit_slope;  // the limit over |x|
-  Range limit;
-  Range held;         // s_i: the root, held within the limit
+  Range C;
+  Range square;
+  Range least;   // the least of the square in the definition
+  Range slope;
+  Range ratio;   // of B + slope and its least in the definition
+  Range lifted;  // what the square is held up by, over |D|^2
+  Range nearer;  // by_curvature
+  bool regular;  // all over the sub-triangle
+  Range s;
+  Range highest;
+  Range height;  // s_i
+  bool free;     // s_i is s all over the sub-triangle
 };
 
 // For the sub-triangle with corners T of the base triangle and directions D there, whose squares have the range DD.
@@ -168,82 +190,105 @@ HeightRange height_range(Triangle tri, int i, Corners T, Corners D, Range DD) {
   h.xx = between(BY_PRECISION(max(xx.lo, real(0.0)), xx.lo), max(xx.hi, real(0.0)));
   h.xD = product_range(h.x, D);
   h.DD = DD;
-  h.DN = linear_range(D, h.N);
   h.A = range_product(h.c, DD);
-  h.B = range_sum(range_product(h.c, h.xD), h.DN);
-  Range C = range_sum(range_product(h.c, h.xx), range_scaled(linear_range(h.x, h.N), real(2.0)));
-  Range AC = range_product(h.A, C);
+  h.B = range_sum(range_product(h.c, h.xD), linear_range(D, h.N));
+  h.C = range_sum(range_product(h.c, h.xx), range_scaled(linear_range(h.x, h.N), real(2.0)));
+  Range AC = range_product(h.A, h.C);
   Range BB = range_square(h.B);
-  h.discriminant = range_grown(range_sum(BB, range_minus(AC)), RANGE_SLACK * (BB.hi + range_magnitude(AC)));
-  h.root = range_root(h.discriminant);
-  h.s = root_range(h.A, h.B, C, h.root);
-  // height_limit.
-  Range size = range_root(between(max(DD.lo, LEAST_DIRECTION_SQUARE), max(DD.hi, LEAST_DIRECTION_SQUARE)));
-  Range sine = range_clamp(range_quotient(h.DN, range_scaled(size, FLAT_SINE)), real(0.0), real(1.0));
-  h.limit_slope = range_quotient(sine, size);
-  Range away = range_root(h.xx);
-  // Nothing is negative here: the slack covers both products.
-  h.limit = between(h.limit_slope.lo * away.lo * (real(1.0) - RANGE_SLACK),
-                    h.limit_slope.hi * away.hi * (real(1.0) + RANGE_SLACK));
-  h.held = between(h.s.lo > real(0.0) ? min(h.s.lo, h.limit.lo) : max(h.s.lo, -h.limit.hi),
-                   h.s.hi > real(0.0) ? min(h.s.hi, h.limit.hi) : max(h.s.hi, -h.limit.lo));
+  h.square = range_grown(range_sum(BB, range_minus(AC)), RANGE_SLACK * (BB.hi + range_magnitude(AC)));
+  Range positive_DD = between(max(DD.lo, LEAST_DIRECTION_SQUARE), max(DD.hi, LEAST_DIRECTION_SQUARE));
+  Range size = range_root(positive_DD);
+  h.least = range_scaled(positive_DD, LEAST_SLOPE * LEAST_SLOPE);
+  h.slope = range_root(held_square_range(h.square, h.least));
+  Range sum = range_sum(h.B, h.slope);
+  Range least_sum = range_scaled(size, real(2.0) * LEAST_SLOPE);
+  h.ratio = range_quotient(sum, least_sum);
+  h.regular = h.square.lo >= h.least.hi && h.ratio.lo >= real(1.0);
+  if (h.regular) {
+    h.lifted = point_range(real(0.0));
+    h.nearer = point_range(real(0.0));
+    h.s = range_quotient(range_minus(h.C), sum);
+    // The same, (slope - B) / A, where it is closer.
+    Range over_A = range_sum(h.slope, range_minus(h.B));
+    if (h.A.lo > real(0.0)) h.s = range_intersection(h.s, range_quotient(over_A, h.A));
+    if (h.A.hi < real(0.0)) h.s = range_intersection(h.s, range_quotient(range_minus(over_A), range_minus(h.A)));
+  } else {
+    h.lifted = range_quotient(held_up_range(h.square, h.least), positive_DD);
+    h.nearer = range_quotient(range_product(h.c, h.xx),
+                              range_sum(range_product(range_square(h.c), h.xx), point_range(CURVED * CURVED)));
+    Range rise = range_sum(range_product(h.lifted, h.nearer), range_minus(h.C));
+    h.s = range_quotient(range_product(rise, held_inverse_range(h.ratio)), least_sum);
+  }
+  h.s = range_grown(h.s, RANGE_SLACK * range_magnitude(h.s));
+  Range highest = range_scaled(range_quotient(range_root(h.xx), size), HIGHEST);
+  h.highest = between(max(highest.lo, real(0.0)) * (real(1.0) - RANGE_SLACK), highest.hi * (real(1.0) + RANGE_SLACK));
+  h.free = range_magnitude(h.s) <= FREE * h.highest.lo;
+  h.height = h.s;
+  if (!h.free) {
+    real lo = held_height(h.s.lo, h.s.lo > real(0.0) ? h.highest.lo : h.highest.hi);
+    real hi = held_height(h.s.hi, h.s.hi > real(0.0) ? h.highest.hi : h.highest.lo);
+    h.height = between(lo - RANGE_SLACK * abs(lo), hi + RANGE_SLACK * abs(hi));
+  }
   return h;
 }
 
-// Range of the limit's derivative as T moves by dT and D by dD. The limit is |x| times limit_slope, which is 1 / |D|,
-// (D.N) / |D|^2 / FLAT_SINE, or 0 (height_limit).
-Range limit_change(HeightRange h, vec3 dT, vec3 dD) {
-  Range far = range_root(h.xx);
-  real step = length3(dT);
-  step += FOR_PROOF(RANGE_SLACK * step);
-  Range away = between(-step, step);
-  if (far.lo > real(0.0)) away = range_intersection(away, range_quotient(linear_range(h.x, dT), far));
-  Range turned = range_product(h.limit_slope, range_quotient(linear_range(h.D, dD), h.DD));
-  Range sine = range_quotient(h.DN, range_scaled(range_root(h.DD), FLAT_SINE));
-  Range slope_change = between(UNBOUNDED, -UNBOUNDED);
-  if (sine.hi >= real(1.0)) slope_change = range_minus(turned);
-  if (sine.lo <= real(0.0)) slope_change = range_hull(slope_change, point_range(real(0.0)));
-  if (sine.lo < real(1.0) && sine.hi > real(0.0)) {
-    Range of_sine = range_quotient(dot_range(dD, h.N), range_scaled(h.DD, FLAT_SINE));
-    slope_change = range_hull(slope_change, range_sum(of_sine, range_scaled(range_minus(turned), real(2.0))));
-  }
-  return range_sum(range_product(away, h.limit_slope), range_product(slope_change, far));
+// Range of the derivative of s where the definition may not hold, as T moves by dT and D by dD (irregular_gradient).
+Range irregular_change(HeightRange h, vec3 dT, vec3 dD) {
+  if (!(h.xx.lo > real(0.0))) return unbounded_range();
+  Range xd = linear_range(h.x, dD);
+  Range Dd = linear_range(h.D, dD);
+  Range xt = linear_range(h.x, dT);
+  Range Dt = linear_range(h.D, dT);
+  Range Nd = dot_range(h.N, dD);
+  Range dc = range_quotient(range_product(linear_range(h.x, cross3(dT, h.turn)), h.rate), h.xx);
+  Range dA = range_sum(range_product(dc, h.DD), range_scaled(range_product(h.c, Dd), real(2.0)));
+  Range dB = range_sum(range_sum(range_product(dc, h.xD), range_product(h.c, range_sum(Dt, xd))), Nd);
+  Range dC = range_sum(range_product(dc, h.xx),
+                       range_scaled(range_sum(range_product(h.c, xt), dot_range(h.N, dT)), real(2.0)));
+  Range d_square = range_sum(range_scaled(range_product(h.B, dB), real(2.0)),
+                             range_minus(range_sum(range_product(h.A, dC), range_product(h.C, dA))));
+  Range kept = range_clamp(range_quotient(h.square, h.least), real(0.0), real(1.0));
+  Range lost = range_sum(point_range(real(1.0)), range_minus(range_square(kept)));
+  lost = between(max(lost.lo, real(0.0)), lost.hi);
+  Range of_least = range_product(lost, range_scaled(Dd, LEAST_SLOPE * LEAST_SLOPE));
+  Range d_held = range_sum(range_product(d_square, kept), of_least);
+  Range lost_square = range_sum(kept, point_range(real(-1.0)));
+  Range Dd_DD = range_quotient(Dd, h.DD);
+  // The held square less the square, over |D|^2.
+  Range d_lifted = range_sum(range_quotient(range_sum(range_product(d_square, lost_square), of_least), h.DD),
+                             range_minus(range_scaled(range_product(h.lifted, Dd_DD), real(2.0))));
+  Range least_sum = range_scaled(range_root(h.DD), real(2.0) * LEAST_SLOPE);
+  Range d_sum = range_sum(dB, range_quotient(range_scaled(d_held, real(0.5)), h.slope));
+  Range d_ratio = range_sum(range_quotient(d_sum, least_sum), range_minus(range_product(h.ratio, Dd_DD)));
+  Range cc_xx = range_product(range_square(h.c), h.xx);
+  Range q = range_sum(cc_xx, point_range(CURVED * CURVED));
+  Range qq = range_square(q);
+  Range d_nearer = range_sum(range_product(range_product(dc, h.xx),
+                                           range_quotient(range_sum(point_range(CURVED * CURVED), range_minus(cc_xx)), qq)),
+                             range_product(range_scaled(range_product(h.c, xt), real(2.0) * CURVED * CURVED),
+                                           range_quotient(point_range(real(1.0)), qq)));
+  Range rise = range_sum(range_product(h.lifted, h.nearer), range_minus(h.C));
+  Range d_rise = range_sum(range_sum(range_product(d_lifted, h.nearer), range_product(h.lifted, d_nearer)),
+                           range_minus(dC));
+  Range change = range_sum(range_product(d_rise, held_inverse_range(h.ratio)),
+                           range_product(rise, range_product(held_inverse_slope_range(h.ratio), d_ratio)));
+  return range_sum(range_quotient(change, least_sum), range_minus(range_product(h.s, Dd_DD)));
 }
 
-// Range of s_i's derivative as T moves by dT and D by dD (sphere_gradient).
-Range height_change(HeightRange h, vec3 dT, vec3 dD) {
-  Range change = between(UNBOUNDED, -UNBOUNDED);
-  if (range_magnitude(h.s) >= h.limit.lo) {
-    Range of_limit = limit_change(h, dT, dD);
-    if (h.s.hi > real(0.0)) change = of_limit;
-    if (h.s.lo < real(0.0)) change = range_hull(change, range_minus(of_limit));
-    if (h.s.lo > h.limit.hi || h.s.hi < -h.limit.hi) return change;
-  }
-  Range s = h.held;
+// Range of the derivative of s as T moves by dT and D by dD.
+Range line_change(HeightRange h, vec3 dT, vec3 dD) {
+  if (!h.regular) return irregular_change(h, dT, dD);
+  Range s = h.s;
   Range xd = linear_range(h.x, dD);
   Range Dd = linear_range(h.D, dD);
   // The change of c times |x|^2.
   Range turning = range_product(linear_range(h.x, cross3(dT, h.turn)), h.rate);
   real slack = RANGE_SLACK * (length3(dT) + range_magnitude(s) * length3(dD));
-  if (h.discriminant.hi <= real(0.0)) {
-    // No line meets the sphere: s A = -B.
-    Range size = h.A;
-    if (!(h.A.lo > real(0.0))) size = range_minus(h.A);
-    if (!(size.lo > real(0.0) && h.xx.lo > real(0.0))) return unbounded_range();
-    Range pD = range_sum(h.xD, range_product(s, h.DD));
-    Range along = range_sum(range_sum(linear_range(h.D, dT), xd), range_scaled(range_product(s, Dd), real(2.0)));
-    Range rise = range_sum(range_sum(range_product(turning, range_quotient(pD, h.xx)), dot_range(h.N, dD)),
-                           range_product(h.c, along));
-    Range fall = rise;
-    if (h.A.lo > real(0.0)) fall = range_minus(rise);
-    return range_hull(change, range_quotient(range_grown(fall, slack), size));
-  }
-  if (!(h.root.lo > real(0.0))) return unbounded_range();
-  // |p|^2 / |x|^2 with p = x + s D is at most 4, as |s D| is held to |x|.
   Range ss = range_square(s);
   Range pp = range_sum(range_sum(h.xx, range_scaled(range_product(s, h.xD), real(2.0))), range_product(ss, h.DD));
   pp = between(max(pp.lo, real(0.0)), max(pp.hi, real(0.0)));
-  Range farther = between(real(0.0), real(4.0));
+  // |p|^2 / |x|^2 with p = x + s D; where s is not held altogether |s D| is at most 25/12 of |x|.
+  Range farther = between(real(0.0), real(9.6));
   if (h.xx.lo > real(0.0)) farther = range_intersection(farther, range_quotient(pp, h.xx));
   Range p_change = range_sum(range_sum(linear_range(h.x, dT), range_product(s, range_sum(xd, linear_range(h.D, dT)))),
                              range_product(ss, Dd));
@@ -251,19 +296,51 @@ Range height_change(HeightRange h, vec3 dT, vec3 dD) {
                                              range_product(h.c, p_change)),
                                    dot_range(h.N, dT)),
                          range_product(s, dot_range(h.N, dD)));
-  return range_hull(change, range_quotient(range_grown(range_minus(rise), slack), h.root));
+  return range_quotient(range_grown(range_minus(rise), slack), h.slope);
+}
+
+// Range of s_i's derivative as T moves by dT and D by dD (sphere_gradient).
+Range height_change(HeightRange h, vec3 dT, vec3 dD) {
+  if (h.free) return line_change(h, dT, dD);
+  // Of the derivative of s it has 2 left, and 1 - left (2 HELD - left) of that of `highest`, where left falls from 1 / 2, where
+  // s begins to be held, to 0 (sphere_gradient).
+  real least = max(max(h.s.lo, -h.s.hi), real(0.0));
+  real most = range_magnitude(h.s);
+  real freest = h.highest.hi > real(0.0) ? clamp(HELD - least / h.highest.hi, real(0.0), real(0.5)) : real(0.5);
+  real tightest = h.highest.lo > real(0.0) ? clamp(HELD - most / h.highest.lo, real(0.0), real(0.5)) : real(0.0);
+  Range size = range_root(h.DD);
+  real step = length3(dT) * (real(1.0) + RANGE_SLACK);
+  Range far = range_root(h.xx);
+  Range away = between(-step, step);
+  if (far.lo > real(0.0)) away = range_intersection(away, range_quotient(linear_range(h.x, dT), far));
+  Range turned = range_product(range_quotient(linear_range(h.D, dD), h.DD), far);
+  Range d_highest = range_scaled(range_quotient(range_sum(away, range_minus(turned)), size), HIGHEST);
+  Range of_highest = between(real(1.0) - freest * (real(2.0) * HELD - freest),
+                             real(1.0) - tightest * (real(2.0) * HELD - tightest));
+  Range change = range_product(range_grown(of_highest, real(4.0) * RANGE_SLACK), d_highest);
+  if (h.s.hi <= real(0.0)) {
+    change = range_minus(change);
+  } else if (h.s.lo < real(0.0)) {
+    change = range_hull(change, range_minus(change));
+  }
+  if (freest <= real(0.0)) return change;
+  // What is held altogether does not count.
+  real counts = HELD * h.highest.hi;
+  h.s = between(max(h.s.lo, -counts), min(h.s.hi, counts));
+  Range part = range_grown(between(real(2.0) * tightest, real(2.0) * freest), real(4.0) * RANGE_SLACK);
+  return range_sum(change, range_product(part, line_change(h, dT, dD)));
 }
 
 // Adds w_i s_i to sigma. w: the range of the weight i; T moves by Tu and Tv along u and v, D by Du and Dv.
 void add_height(INOUT(SphereRange) sigma, int i, HeightRange h, Range w, vec3 Tu, vec3 Tv, vec3 Du, vec3 Dv) {
-  sigma.s = range_sum(sigma.s, range_product(w, h.held));
+  sigma.s = range_sum(sigma.s, range_product(w, h.height));
   sigma.u = range_sum(sigma.u, range_product(w, height_change(h, Tu, Du)));
   sigma.v = range_sum(sigma.v, range_product(w, height_change(h, Tv, Dv)));
   // The weights' own derivatives: -1 of weight 0, 1 of weight 1 or 2.
   if (i == 0) {
-    sigma.u = range_sum(sigma.u, range_minus(h.held));
-    sigma.v = range_sum(sigma.v, range_minus(h.held));
+    sigma.u = range_sum(sigma.u, range_minus(h.height));
+    sigma.v = range_sum(sigma.v, range_minus(h.height));
   }
-  if (i == 1) sigma.u = range_sum(sigma.u, h.held);
-  if (i == 2) sigma.v = range_sum(sigma.v, h.held);
+  if (i == 1) sigma.u = range_sum(sigma.u, h.height);
+  if (i == 2) sigma.v = range_sum(sigma.v, h.height);
 }

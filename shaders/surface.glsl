@@ -72,22 +72,6 @@ vec3 edge_bulges(Triangle tri, real alpha) {
               edge_bulge(tri.Position[0], tri.Position[2], tri.Normal[0], tri.Normal[2], alpha));
 }
 
-// Where the line x0 + s dir, x0 relative to the vertex, leaves the sphere c |x|^2 + 2 x.N = 0 of curvature c through
-// the vertex, or enters a hollow one, on the side to which N points: A s^2 + 2 B s + C = 0, the root with A s + B >= 0.
-// A line that misses the sphere gets the point where it passes closest to it, s = -B / A, which is continuous with the
-// point at which a line touches it. For B > 0 the quadratic formula is taken in the form -C / (B + root), in which nothing
-// cancels and which holds for a plane, c = 0, too.
-real sphere_root(vec3 x0, vec3 dir, vec3 N, real c) {
-  real A = c * dot3(dir, dir);
-  real B = c * dot3(x0, dir) + dot3(dir, N);
-  real C = c * dot3(x0, x0) + real(2.0) * dot3(x0, N);
-  bool plane = A == real(0.0);
-  if (C == real(0.0) && (plane || B >= real(0.0))) return real(0.0);
-  real discriminant = B * B - A * C;
-  real root = plane ? B : sqrt(max(discriminant, real(0.0)));
-  return plane || (B > real(0.0) && discriminant > real(0.0)) ? -C / (B + root) : (root - B) / A;
-}
-
 // Where the direction from a vertex to the point T lies between the vertex's neighbours, linear in the angle: 0 toward b,
 // 1 toward a, whose weight at T is w_a. It goes on beyond the edges, so that the surface is smooth there, but not all
 // around the vertex.
@@ -111,32 +95,105 @@ vec3 curvature_blends(Triangle tri, vec3 w, vec3 T) {
               curvature_blend(T, w.x, P2, P1, tri.VertexData[2]));
 }
 
-// The sine of the angle between D and a vertex's tangent plane below which the displacement toward its sphere is limited
-// further, down to 0 in the plane and beneath it: the definition would send it to infinity there.
-const real FLAT_SINE = real(0.25);
+// The least cosine of the angle between D and the normal of the sphere where they meet. Flatter lines, and those that miss
+// the sphere, leave the definition, which has an infinite slope where they touch, smoothly.
+const real LEAST_SLOPE = real(0.5);
+// In units of 1 / |x|: where the slope is held up s moves by an amount over c, of curvatures small against this by less.
+const real CURVED = real(0.5);
+// A height is at most this part of the distance from the vertex, in units of D. Up to three quarters of it, 5/4 of the
+// distance, it is as it is; from there a parabola leads to the whole, which it reaches at five quarters. An arc of up to a
+// half circle stays within the distance from its end, and so does a plane through the vertex next to it, however the
+// normal leans.
+const real HIGHEST = real(5.0) / real(3.0);
+const real FREE = real(0.75);
+const real HELD = real(1.25);
 
-// The farthest that a point x0 from a vertex is displaced toward its sphere, in units of D: as far as it is from the
-// vertex. An arc of up to a half circle stays within this distance of its chord. Both faces of an edge have the same limit
-// along it.
-real height_limit(vec3 x0, vec3 D, vec3 N) {
-  real size = length3(D);
-  return length3(x0) * clamp(dot3(D, N) / (FLAT_SINE * size), real(0.0), real(1.0)) / size;
+// d where it is at least `least`, otherwise a parabola down to least / 2 at 0, and that below. The derivative is continuous.
+real held_square(real d, real least) {
+  real positive = max(d, real(0.0));
+  return d >= least ? d : real(0.5) * (least + positive * positive / least);
 }
 
-// s_i of the sphere surface: the displacement, in units of D, toward the sphere of vertex i, whose curvature is c.
-real sphere_height(vec3 T, vec3 D, vec3 vertex, vec3 N, real c) {
-  vec3 x0 = T - vertex;
-  real limit = height_limit(x0, D, N);
-  return clamp(sphere_root(x0, D, N, c), -limit, limit);
+// 1 / z for z of at least 1, otherwise a cubic down to 0 at 0, and that below; and its derivative, which is continuous.
+real held_inverse(real z) {
+  real positive = max(z, real(0.0));
+  return z >= real(1.0) ? real(1.0) / z : positive * positive * (real(4.0) - real(3.0) * positive);
+}
+
+real held_inverse_slope(real z) {
+  real positive = max(z, real(0.0));
+  return z >= real(1.0) ? real(-1.0) / (z * z) : positive * (real(8.0) - real(9.0) * positive);
+}
+
+// The line T + s D and the sphere c |x|^2 + 2 x.N = 0 of curvature c through a vertex with its normal N, x relative to the
+// vertex. They meet where A s^2 + 2 B s + C = 0, at the slope A s + B, half the derivative of that.
+struct SphereLine {
+  real xx;       // |x|^2 of the base point
+  real DD;
+  real xD;
+  real A;
+  real B;
+  real C;
+  real square;   // of the slope, B^2 - A C; negative if the line misses the sphere
+  real slope;    // the square's root, the square held up
+  real sum;      // B + slope
+  bool regular;  // the definition holds
+  real s;        // where they meet, or what takes its place, in units of D
+};
+
+// 1 / c for large c |x|, falling to 0 with the curvature, as a plane has no nearest point to a line that does not meet it.
+real by_curvature(real c, real xx) { return c * xx / (c * c * xx + CURVED * CURVED); }
+
+// Of the two points where a line meets a sphere the one with A s + B >= 0 counts, where it leaves the sphere, or enters a
+// hollow one, on the side to which N points: s = -C / (B + sqrt(B^2 - A C)), in which nothing cancels and which holds for a
+// plane, c = 0, too. Where the slope is too small its square is held up, as if the sphere lay nearer to the line, which makes
+// C that of such a sphere: (slope - B) / A in the form above. Where the denominator is too small, its inverse falls to 0: such
+// a point is on the wrong side.
+SphereLine sphere_line(vec3 x0, vec3 D, vec3 N, real c) {
+  SphereLine line;
+  line.xx = dot3(x0, x0);
+  line.DD = dot3(D, D);
+  line.xD = dot3(x0, D);
+  line.A = c * line.DD;
+  line.B = c * line.xD + dot3(D, N);
+  line.C = c * line.xx + real(2.0) * dot3(x0, N);
+  line.square = line.B * line.B - line.A * line.C;
+  real least = LEAST_SLOPE * LEAST_SLOPE * line.DD;
+  line.slope = sqrt(held_square(line.square, least));
+  line.sum = line.B + line.slope;
+  line.regular = line.square >= least && line.sum > real(0.0) && line.sum * line.sum >= real(4.0) * least;
+  if (line.regular) {
+    line.s = -line.C / line.sum;
+  } else {
+    real least_sum = real(2.0) * sqrt(least);
+    real lifted = (line.slope * line.slope - line.square) / line.DD;
+    line.s = (lifted * by_curvature(c, line.xx) - line.C) * held_inverse(line.sum / least_sum) / least_sum;
+  }
+  return line;
+}
+
+// A height held below `highest`.
+real held_height(real s, real highest) {
+  if (abs(s) <= FREE * highest) return s;
+  real left = max(HELD - abs(s) / highest, real(0.0));
+  real held = highest * (real(1.0) - left * left);
+  return s < real(0.0) ? -held : held;
+}
+
+// s_i of the sphere surface: the displacement, in units of D, toward the sphere of vertex i.
+real sphere_height(SphereLine line) {
+  if (line.s * line.s * line.DD <= FREE * HIGHEST * FREE * HIGHEST * line.xx) return line.s;
+  return held_height(line.s, HIGHEST * sqrt(line.xx / line.DD));
+}
+
+// At the point T along D of vertex i, whose curvature is c there.
+SphereLine vertex_line(Triangle tri, int i, vec3 T, vec3 D, real blend) {
+  return sphere_line(T - vec3(tri.Position[i]), D, vec3(tri.Normal[i]), blended_curvature(blend, tri.VertexData[i]));
 }
 
 vec3 sphere_heights(Triangle tri, vec3 T, vec3 D, vec3 blends) {
-  return vec3(sphere_height(T, D, vec3(tri.Position[0]), vec3(tri.Normal[0]),
-                            blended_curvature(blends.x, tri.VertexData[0])),
-              sphere_height(T, D, vec3(tri.Position[1]), vec3(tri.Normal[1]),
-                            blended_curvature(blends.y, tri.VertexData[1])),
-              sphere_height(T, D, vec3(tri.Position[2]), vec3(tri.Normal[2]),
-                            blended_curvature(blends.z, tri.VertexData[2])));
+  return vec3(sphere_height(vertex_line(tri, 0, T, D, blends.x)), sphere_height(vertex_line(tri, 1, T, D, blends.y)),
+              sphere_height(vertex_line(tri, 2, T, D, blends.z)));
 }
 
 // sigma(w).
@@ -172,47 +229,71 @@ real phong_derivative(Triangle tri, vec3 w, vec3 dw, vec3 T, vec3 dT, vec3 D, ve
   return alpha * (dot3(dD, K) + dot3(D, dK) - real(2.0) * dot3(D, K) * dot3(D, dD) / DD) / DD;
 }
 
-// Gradient of s_i, where `blend` is curvature_blend there. `turn` is +n or -n, the axis about which the angle from the
-// neighbour b to the point grows. Where s_i is not differentiable it is an element of the generalised gradient (Clarke
-// 1983), the limit of gradients from one side.
-Gradient sphere_gradient(vec3 T, vec3 D, real s, vec3 vertex, vec3 N, real blend, vec4 data, vec3 turn) {
+// Gradient of the line's s where the definition does not hold, c and its gradient by T given.
+Gradient irregular_gradient(SphereLine line, vec3 x0, vec3 D, vec3 N, real c, vec3 dc) {
   EXACT Gradient gradient;
-  vec3 x0 = T - vertex;
-  real xx = dot3(x0, x0);
-  real DD = dot3(D, D);
-  real DN = dot3(D, N);
-  if (xx == real(0.0)) {
-    gradient.along_T = -N / DN;
+  // The derivatives of B, C, the square and the slope by T and D.
+  vec3 g = x0 * c + N;
+  vec3 B_T = dc * line.xD + D * c;
+  vec3 C_T = dc * line.xx + g * real(2.0);
+  vec3 square_T = B_T * (real(2.0) * line.B) - C_T * line.A - dc * (line.DD * line.C);
+  vec3 square_D = g * (real(2.0) * line.B) - D * (real(2.0) * c * line.C);
+  real least = LEAST_SLOPE * LEAST_SLOPE * line.DD;
+  real kept = clamp(line.square / least, real(0.0), real(1.0));
+  vec3 held_T = square_T * kept;
+  vec3 held_D = square_D * kept + D * (LEAST_SLOPE * LEAST_SLOPE * (real(1.0) - kept * kept));
+  if (line.square >= least) held_D = square_D;
+  real least_sum = real(2.0) * sqrt(least);
+  real ratio = line.sum / least_sum;
+  vec3 ratio_T = (B_T + held_T * (real(0.5) / line.slope)) / least_sum;
+  vec3 ratio_D = (g + held_D * (real(0.5) / line.slope)) / least_sum - D * (ratio / line.DD);
+  // s = (lifted * nearer - C) * held_inverse(ratio) / least_sum
+  real lifted = (line.slope * line.slope - line.square) / line.DD;
+  vec3 lifted_T = (held_T - square_T) / line.DD;
+  vec3 lifted_D = (held_D - square_D) / line.DD - D * (real(2.0) * lifted / line.DD);
+  real nearer = by_curvature(c, line.xx);
+  real q = c * c * line.xx + CURVED * CURVED;
+  vec3 nearer_T = dc * (line.xx * (CURVED * CURVED - c * c * line.xx) / (q * q)) +
+                  x0 * (real(2.0) * c * CURVED * CURVED / (q * q));
+  real rise = lifted * nearer - line.C;
+  real inverse = held_inverse(ratio) / least_sum;
+  real inverse_slope = held_inverse_slope(ratio) / least_sum;
+  gradient.along_T = (lifted_T * nearer + nearer_T * lifted - C_T) * inverse + ratio_T * (rise * inverse_slope);
+  gradient.along_D = lifted_D * (nearer * inverse) + ratio_D * (rise * inverse_slope) - D * (line.s / line.DD);
+  return gradient;
+}
+
+// Gradient of s_i, where `blend` is curvature_blend and `line` vertex_line there. `turn` is +n or -n, the axis about which
+// the angle from the neighbour b to the point grows.
+Gradient sphere_gradient(SphereLine line, vec3 T, vec3 D, vec3 vertex, vec3 N, real blend, vec4 data, vec3 turn) {
+  EXACT Gradient gradient;
+  if (line.xx == real(0.0)) {
+    gradient.along_T = -N / dot3(D, N);
     gradient.along_D = vec3(0.0);
     return gradient;
   }
-  if (abs(s) >= height_limit(x0, D, N)) {
-    // s_i is the limit: differentiate height_limit.
-    bool flat_on = DN < FLAT_SINE * sqrt(DD);
-    gradient.along_T = x0 * (s / xx);
-    gradient.along_D = D * ((flat_on ? real(-2.0) : real(-1.0)) * s / DD);
-    if (flat_on && DN > real(0.0)) gradient.along_D += N * (s / DN);
-    return gradient;
-  }
-  bool turns = blend > LEAST_BLEND && blend < MOST_BLEND;
+  vec3 x0 = T - vertex;
   real c = blended_curvature(blend, data);
+  bool turns = blend > LEAST_BLEND && blend < MOST_BLEND;
   // The gradient of c by T.
-  vec3 dc = turns ? cross3(turn, x0) * ((data.x - data.y) / (xx * data.z)) : vec3(0.0);
-  vec3 p = x0 + D * s;
-  real A = c * DD;
-  real B = c * dot3(x0, D) + DN;
-  real C = c * xx + real(2.0) * dot3(x0, N);
-  if (B * B - A * C <= real(0.0)) {
-    // s = -B / A, the point p that is closest to the sphere.
-    gradient.along_T = -(D * c + dc * dot3(p, D)) / A;
-    gradient.along_D = -(N + (p + D * s) * c) / A;
-    return gradient;
+  vec3 dc = turns ? cross3(turn, x0) * ((data.x - data.y) / (line.xx * data.z)) : vec3(0.0);
+  if (line.regular) {
+    // Half the sphere's function F = c p.p + 2 p.N, 0 at p, changes with p by g and with s by g.D, the slope.
+    vec3 p = x0 + D * line.s;
+    vec3 g = p * c + N;
+    gradient.along_T = -(g + dc * (real(0.5) * dot3(p, p))) / line.slope;
+    gradient.along_D = g * (-line.s / line.slope);
+  } else {
+    gradient = irregular_gradient(line, x0, D, N, c, dc);
   }
-  // Half the sphere's function F = c p.p + 2 p.N, 0 at p, changes with p by g and with s by g.D.
-  vec3 g = p * c + N;
-  real slope = A * s + B;
-  gradient.along_T = -(g + dc * (real(0.5) * dot3(p, p))) / slope;
-  gradient.along_D = g * (-s / slope);
+  if (line.s * line.s * line.DD <= FREE * HIGHEST * FREE * HIGHEST * line.xx) return gradient;
+  // sphere_height = highest (1 - left^2)
+  real highest = HIGHEST * sqrt(line.xx / line.DD);
+  real left = max(HELD - abs(line.s) / highest, real(0.0));
+  real of_highest = highest * (real(1.0) - left * (real(2.0) * HELD - left));
+  if (line.s < real(0.0)) of_highest = -of_highest;
+  gradient.along_T = gradient.along_T * (real(2.0) * left) + x0 * (of_highest / line.xx);
+  gradient.along_D = gradient.along_D * (real(2.0) * left) - D * (of_highest / line.DD);
   return gradient;
 }
 
@@ -257,12 +338,15 @@ Displacement displacement_and_derivatives(Shape shape, Triangle tri, vec3 w) {
   vec3 N1 = vec3(tri.Normal[1]);
   vec3 N2 = vec3(tri.Normal[2]);
   vec3 blends = curvature_blends(tri, w, T);
-  vec3 s = sphere_heights(tri, T, D, blends);
+  SphereLine l0 = vertex_line(tri, 0, T, D, blends.x);
+  SphereLine l1 = vertex_line(tri, 1, T, D, blends.y);
+  SphereLine l2 = vertex_line(tri, 2, T, D, blends.z);
+  vec3 s = vec3(sphere_height(l0), sphere_height(l1), sphere_height(l2));
   // The angle at a vertex is measured from neighbour b; seen along n, b follows a at vertices 0 and 2
   // (so the angle shrinks as the point turns about +n) and precedes it at vertex 1.
-  Gradient d0 = sphere_gradient(T, D, s.x, P0, N0, blends.x, tri.VertexData[0], -n);
-  Gradient d1 = sphere_gradient(T, D, s.y, P1, N1, blends.y, tri.VertexData[1], n);
-  Gradient d2 = sphere_gradient(T, D, s.z, P2, N2, blends.z, tri.VertexData[2], -n);
+  Gradient d0 = sphere_gradient(l0, T, D, P0, N0, blends.x, tri.VertexData[0], -n);
+  Gradient d1 = sphere_gradient(l1, T, D, P1, N1, blends.y, tri.VertexData[1], n);
+  Gradient d2 = sphere_gradient(l2, T, D, P2, N2, blends.z, tri.VertexData[2], -n);
   vec3 su = vec3(dot3(d0.along_T, Tu) + dot3(d0.along_D, Du), dot3(d1.along_T, Tu) + dot3(d1.along_D, Du),
                  dot3(d2.along_T, Tu) + dot3(d2.along_D, Du));
   vec3 sv = vec3(dot3(d0.along_T, Tv) + dot3(d0.along_D, Dv), dot3(d1.along_T, Tv) + dot3(d1.along_D, Dv),

@@ -10,6 +10,7 @@
 #include "app/surface/control_net.h"
 #include "app/surface/patch_range.h"
 #include "app/surface/sphere_range.h"
+#include "app/surface/surface_double.h"
 
 namespace trisect {
 namespace {
@@ -70,8 +71,8 @@ std::vector<Ball> sphere_points(const Patch& patch, int level) {
 
 Ball bound_sphere_surface(const Patch& patch) {
   const Ball base = enclosing_ball(flat_balls(patch));
-  // sphere_heights displaces no point by more than the longest edge.
-  Ball best{base.center, base.radius + patch.longest};
+  // sphere_height displaces no point by more than so many times its distance from a vertex.
+  Ball best{base.center, base.radius + in_double::HIGHEST * patch.longest};
   constexpr double tight = 1.1;
   constexpr int levels = 3;
   for (int level = 0; level <= levels && best.radius > tight * base.radius; ++level) {

@@ -26,10 +26,12 @@ using in_double::SubTriangle;
 // The quadratic of a subpatch must follow the surface to this part of the longest edge of the
 // sub-triangle, and the tangents to this part of the longest edge of the patch; otherwise the
 // subpatch is divided, at most so many times. One that may be nonsmooth, whose tangents no
-// quadratic follows, is divided further by the kernel, for the few rays that come near.
+// quadratic follows, is divided twice more as long as a quarter of it is smooth, which leaves the
+// place about a vertex out; then by the kernel, for the few rays that come near.
 constexpr double kClose = 0.02;
 constexpr double kTangentsClose = 0.1;
 constexpr int kMostLevels = 6;
+constexpr int kMostLevelsOfNonsmooth = 8;
 
 // The solver is fast for rays within a subpatch's cone (SubpatchBounds::cone), whose w should be at
 // most `widest`; otherwise the subpatch is divided, for this reason only down to this level, a
@@ -166,6 +168,12 @@ SubpatchBounds bounds_of(const PatchData& patch, const SubTriangle& sub_triangle
   return bounds;
 }
 
+bool has_smooth_quarter(const PatchData& patch, const SubTriangle& sub_triangle) {
+  const auto quarters = quarter(sub_triangle);
+  return std::any_of(quarters.begin(), quarters.end(),
+                     [&](const SubTriangle& piece) { return !may_be_nonsmooth(patch, piece); });
+}
+
 // Appends the bounds of a sub-triangle and, if it is divided, those of its children after it.
 void bound_subpatch(const PatchData& patch, const ConeLimits& limits,
                     const SubTriangle& sub_triangle, int level, uint32_t triangle,
@@ -177,7 +185,11 @@ void bound_subpatch(const PatchData& patch, const ConeLimits& limits,
   const std::size_t index = subpatches.size();
   subpatches.push_back(bounds_of(patch, sub_triangle, found, triangle));
   const bool nonsmooth = subpatches[index].gradient_lipschitz == NONSMOOTH;
-  if (close || level == kMostLevels) {
+  const bool deepest =
+      nonsmooth ? level >= kMostLevels &&
+                      (level == kMostLevelsOfNonsmooth || !has_smooth_quarter(patch, sub_triangle))
+                : level >= kMostLevels;
+  if (close || deepest) {
     if (!nonsmooth) subpatches[index].cone = normal_cone(patch, sub_triangle, found);
     if (subpatches[index].cone.w <= limits.widest || level >= limits.levels) return;
   }

@@ -113,12 +113,12 @@ void raise_tangent_error(const PatchData& patch, const Sample& a, double& tangen
 }
 
 // Whether sigma may be nonsmooth over a sub-triangle, as far as so many divisions tell.
-bool may_be_nonsmooth(const PatchData& patch, const SubTriangle& sub_triangle, int divisions) {
+bool may_be_nonsmooth_over(const PatchData& patch, const SubTriangle& sub_triangle, int divisions) {
   if (sphere_is_smooth(patch.corners, corner_weights(sub_triangle))) return false;
   if (divisions == 0) return true;
   const auto quarters = quarter(sub_triangle);
   return std::any_of(quarters.begin(), quarters.end(), [&](const SubTriangle& piece) {
-    return may_be_nonsmooth(patch, piece, divisions - 1);
+    return may_be_nonsmooth_over(patch, piece, divisions - 1);
   });
 }
 
@@ -171,6 +171,12 @@ Fit nonsmooth_fit(const PatchData& patch, const SubTriangle& sub_triangle, Fit f
 
 }  // namespace
 
+bool may_be_nonsmooth(const PatchData& patch, const SubTriangle& sub_triangle) {
+  return patch.shape.surface == SURFACE_SPHERE &&
+         may_be_nonsmooth_over(patch, in_double::enlarged(sub_triangle, CONE_MARGIN),
+                               kProofDivisions);
+}
+
 Fit fit_subpatch(const PatchData& patch, const SubTriangle& sub_triangle) {
   const bool cubic = in_double::is_cubic(patch.shape);
   Fit fit;
@@ -196,8 +202,7 @@ Fit fit_subpatch(const PatchData& patch, const SubTriangle& sub_triangle) {
     fit.tangent_error = rounded;
     return fit;
   }
-  if (patch.shape.surface == SURFACE_SPHERE &&
-      may_be_nonsmooth(patch, in_double::enlarged(sub_triangle, CONE_MARGIN), kProofDivisions)) {
+  if (may_be_nonsmooth(patch, sub_triangle)) {
     return nonsmooth_fit(patch, sub_triangle, fit, rounded);
   }
   const SubTriangle large = in_double::with_overlap(sub_triangle);

@@ -41,6 +41,9 @@ struct Fit {
 
 // For the subpatch over a sub-triangle and its overlap with the neighbours. An error of which
 // nothing is known is UNBOUNDED.
+// Whether samples may not show how sigma changes over a subpatch and its overlap.
+bool may_be_nonsmooth(const PatchData& patch, const in_double::SubTriangle& sub_triangle);
+
 Fit fit_subpatch(const PatchData& patch, const in_double::SubTriangle& sub_triangle);
 
 // Fit::tangent_error over a larger sub-triangle.

@@ -42,33 +42,11 @@ SphereOverSubTriangle sphere_over(const Patch& patch, const CornerWeights& weigh
   return over;
 }
 
-HeightRange height_range(const Patch& patch, std::size_t i, const SphereOverSubTriangle& over) {
-  return in_double::height_range(patch.triangle, static_cast<int>(i), over.T, over.D, over.DD);
-}
-
-// Whether the directions do not vanish. Written so that a NaN is no direction.
-bool has_directions(const SphereOverSubTriangle& over) {
-  return over.DD.lo > in_double::LEAST_DIRECTION_SQUARE;
-}
-
-// Whether A and B do not both vanish somewhere, for all that the ranges tell.
-bool has_root(const HeightRange& h) {
-  return in_double::range_magnitude(h.s) < in_double::UNBOUNDED;
-}
-
-// Whether the limit is a smooth function of D over a sub-triangle.
-bool limit_is_smooth(const HeightRange& h) {
-  const Interval flat = root(h.DD) * in_double::FLAT_SINE;
-  return h.DN.hi < 0.0 || h.DN.lo > flat.hi || (h.DN.lo > 0.0 && h.DN.hi < flat.lo);
-}
-
-// Whether the root stays within its limit all over a sub-triangle.
-bool is_within_limit(const Patch& patch, std::size_t i, const HeightRange& h) {
-  if (h.s.hi < h.limit.lo && h.s.lo > -h.limit.lo) return true;
-  if (!(h.B.lo > 0.0) || !(h.discriminant.lo > 0.0)) return false;
-  // Next to the vertex both fall to 0. Compare what they are to the distance x from it:
-  // |s| <= (|c| x + 2 |x.N| / x) x / (B + root), where x.N / x is at most the length of N along the
-  // face.
+// Whether s_i is s all over a sub-triangle of which h is the range, next to the vertex too, where
+// both s and the distance x from it fall to 0. Compares what they are to x: by the definition
+// |s| <= (|c| x + 2 |x.N| / x) x / (B + slope), where x.N / x is at most the length of N along the
+// face, and s is free up to 5/4 x / |D|.
+bool is_free_by_slope(const Patch& patch, std::size_t i, const HeightRange& h) {
   const double along = glm::length(patch.N[i] - patch.n * glm::dot(patch.N[i], patch.n));
   // N and n are unit vectors, and n, a cross product, is off by 8 roundings over the sine between
   // two edges.
@@ -76,26 +54,50 @@ bool is_within_limit(const Patch& patch, std::size_t i, const HeightRange& h) {
   const dvec3 E2 = patch.P[2] - patch.P[0];
   const double sine = glm::length(glm::cross(E1, E2)) / (glm::length(E1) * glm::length(E2));
   const double most_along = along + gamma_double(16) + gamma_double(16) / sine;
-  const Interval slope = divide_by_positive(
-      Interval(in_double::range_magnitude(h.c)) * root(h.xx) + 2.0 * most_along, h.B + h.root);
-  const Interval D = root(h.DD);
-  const double least_sine = std::min(divide_by_positive(h.DN, D * in_double::FLAT_SINE).lo, 1.0);
-  return slope.hi < divide_by_positive(least_sine, D).lo;
+  const Interval most =
+      (Interval(in_double::range_magnitude(h.c)) * root(h.xx) + 2.0 * most_along) * root(h.DD);
+  return h.regular && most.hi < (in_double::FREE * in_double::HIGHEST * (h.B + h.slope)).lo;
 }
 
-// Whether s_i is smooth over a sub-triangle: it is the limit all over it, or nowhere, and then all
-// of the lines meet the sphere or none.
-bool is_smooth(const Patch& patch, std::size_t i, const HeightRange& h) {
-  if (h.DN.hi < 0.0) return true;
-  if (!has_root(h)) return false;
-  if (h.s.lo > h.limit.hi || h.s.hi < -h.limit.hi) return limit_is_smooth(h);
-  return (h.discriminant.lo > 0.0 || h.discriminant.hi < 0.0) && is_within_limit(patch, i, h);
+HeightRange height_range(const Patch& patch, std::size_t i, const SphereOverSubTriangle& over) {
+  HeightRange h =
+      in_double::height_range(patch.triangle, static_cast<int>(i), over.T, over.D, over.DD);
+  if (!h.free && is_free_by_slope(patch, i, h)) {
+    h.free = true;
+    h.height = h.s;
+  }
+  return h;
+}
+
+// Whether s_i is where the line meets the sphere by the definition, all over a sub-triangle.
+bool is_free_root(const HeightRange& h) {
+  return h.regular && h.free;
+}
+
+// Whether the directions do not vanish. Written so that a NaN is no direction.
+bool has_directions(const SphereOverSubTriangle& over) {
+  return over.DD.lo > in_double::LEAST_DIRECTION_SQUARE;
+}
+
+double longest_edge(const in_double::Corners& a) {
+  return std::max({glm::length(a.a - a.b), glm::length(a.b - a.c), glm::length(a.a - a.c)});
+}
+
+// Whether s_i is smooth over a sub-triangle as far as samples show that have a third of its width:
+// by the definition it is analytic away from the vertex; where it leaves the definition it is a
+// function of the angles between x, D and N and of c |x|, with a derivative that is Lipschitz and
+// of the order of 1, so it is smooth if these change little.
+bool is_smooth(const HeightRange& h) {
+  if (is_free_root(h)) return true;
+  constexpr double little = 0.5;
+  const double edge = longest_edge(h.x);
+  return longest_edge(h.D) < 0.5 * little * root(h.DD).lo && edge < little * root(h.xx).lo &&
+         edge * in_double::range_magnitude(h.c) < little;
 }
 
 // Whether s_i is the root all over a sub-triangle and has bounded derivatives there.
 bool is_root_with_derivatives(const Patch& patch, std::size_t i, const HeightRange& h) {
-  return has_root(h) && h.xx.lo > 0.0 && patch.data[i].z > 0.0 && h.discriminant.lo > 0.0 &&
-         h.s.hi < h.limit.lo && h.s.lo > -h.limit.lo;
+  return is_free_root(h) && h.xx.lo > 0.0 && patch.data[i].z > 0.0;
 }
 
 // The first and the second derivative of s_i along a direction in which T moves by e and D by d.
@@ -109,7 +111,7 @@ struct HeightDerivatives {
 //   g.p'' + 2 c' p.p' + c p'.p' + c'' p.p / 2 = 0, p' = e + s d + s' D, p'' = s'' D + 2 s' d.
 // c depends on the angle of x: c' = rate t / x.x with t = x.(e x turn), c'' = -2 c' x.e / x.x.
 HeightDerivatives height_derivatives(const HeightRange& h, const dvec3& e, const dvec3& d) {
-  const Interval s = h.held;
+  const Interval s = h.height;
   const Interval s1 = in_double::height_change(h, e, d);
   const Interval ee = in_double::dot_range(e, e);
   const Interval xe = in_double::linear_range(h.x, e);
@@ -127,17 +129,12 @@ HeightDerivatives height_derivatives(const HeightRange& h, const dvec3& e, const
         divide_by_positive(in_double::linear_range(h.x, glm::cross(e, h.turn)) * h.rate, h.xx);
     turned = change * (2.0 * pp1 - divide_by_positive(pp, h.xx) * xe);
   } else {
-    // |t| <= |x| |e|, and |p| <= 2 |x| as |s D| is held to |x|.
+    // |t| <= |x| |e|, and |p| <= 9/4 |x| as s is free.
     const Interval size = root(ee);
-    const double most = (4.0 * in_double::range_magnitude(h.rate) * size * (root(moved) + size)).hi;
+    const double most = (5.1 * in_double::range_magnitude(h.rate) * size * (root(moved) + size)).hi;
     turned = {-most, most};
   }
-  return {s1, divide_by_positive(-(2.0 * s1 * gd + turned + h.c * moved), h.root)};
-}
-
-// Whether s_i is the root all over a sub-triangle of the patch, its vertex included.
-bool is_smooth_root(const Patch& patch, std::size_t i, const HeightRange& h) {
-  return has_root(h) && h.discriminant.lo > 0.0 && h.root.lo > 0.0 && is_within_limit(patch, i, h);
+  return {s1, divide_by_positive(-(2.0 * s1 * gd + turned + h.c * moved), h.slope)};
 }
 
 // The three bounds of |sigma - linear| (sphere_chord_bound).
@@ -166,7 +163,7 @@ double by_derivatives(const Patch& patch, const std::array<HeightRange, 3>& heig
   std::array<double, 3> widths{};  // of the derivatives from vertex i toward the next
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
-    Interval along = heights[j].held - heights[i].held;
+    Interval along = heights[j].height - heights[i].height;
     for (std::size_t k = 0; k < 3; ++k) {
       along = along + over.w[k] * in_double::height_change(heights[k], patch.P[j] - patch.P[i],
                                                            patch.D[j] - patch.D[i]);
@@ -189,8 +186,7 @@ std::optional<std::array<Interval, 3>> second_derivative_ranges(
     const Patch& patch, const std::array<HeightRange, 3>& heights,
     const SphereOverSubTriangle& over) {
   for (std::size_t k = 0; k < 3; ++k) {
-    const bool none = heights[k].DN.hi < 0.0;  // s_k is 0
-    if (!none && !is_smooth_root(patch, k, heights[k])) return std::nullopt;
+    if (!is_free_root(heights[k])) return std::nullopt;
   }
   std::array<Interval, 3> second{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -198,7 +194,6 @@ std::optional<std::array<Interval, 3>> second_derivative_ranges(
     const dvec3 e = patch.P[j] - patch.P[i];
     const dvec3 d = patch.D[j] - patch.D[i];
     for (std::size_t k = 0; k < 3; ++k) {
-      if (heights[k].DN.hi < 0.0) continue;
       const HeightDerivatives s = height_derivatives(heights[k], e, d);
       second[i] = second[i] + over.w[k] * s.second;
       // The weights' own derivatives are -1 at i and 1 at j.
@@ -260,7 +255,7 @@ std::optional<Interval> sphere_sigma_range(const Patch& patch, const CornerWeigh
   if (!has_directions(over)) return std::nullopt;
   Interval sigma(0.0);
   for (std::size_t i = 0; i < 3; ++i) {
-    sigma = sigma + over.w[i] * height_range(patch, i, over).held;
+    sigma = sigma + over.w[i] * height_range(patch, i, over).height;
   }
   return sigma;
 }
@@ -269,7 +264,7 @@ bool sphere_is_smooth(const Patch& patch, const CornerWeights& weights) {
   const SphereOverSubTriangle over = sphere_over(patch, weights, corners_of(patch, weights));
   if (!has_directions(over)) return false;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (!is_smooth(patch, i, height_range(patch, i, over))) return false;
+    if (!is_smooth(height_range(patch, i, over))) return false;
   }
   return true;
 }
@@ -285,7 +280,7 @@ std::optional<SigmaRanges> sphere_derivative_ranges(const Patch& patch,
 std::optional<SigmaRanges> sphere_change_ranges(const Patch& patch, const CornerWeights& weights,
                                                 const PatchCorners& corners) {
   const auto sigma = sigma_ranges(patch, weights, corners, [&](std::size_t, const HeightRange& h) {
-    return has_root(h) && has_bounded_change(patch, h);
+    return has_bounded_change(patch, h);
   });
   if (!sigma || !is_bounded(sigma->s) || !is_bounded(sigma->u) || !is_bounded(sigma->v)) {
     return std::nullopt;
@@ -302,13 +297,13 @@ std::optional<std::array<Interval, 3>> sphere_second_derivative_ranges(
 
 double sphere_chord_bound(const Patch& patch, const CornerWeights& weights) {
   const PatchCorners corners = corners_of(patch, weights);
-  // No point is displaced by more than its distance from a vertex (height_limit).
-  const double farthest = 2.0 * patch.longest * (1.0 + gamma_double(100));
+  // No point is displaced by more than so many times its distance from a vertex (HIGHEST).
+  const double farthest = 2.0 * in_double::HIGHEST * patch.longest * (1.0 + gamma_double(100));
   const SphereOverSubTriangle over = sphere_over(patch, weights, corners);
   if (!has_directions(over)) return farthest;
   const std::array<HeightRange, 3> heights = height_ranges(patch, over);
   Interval sigma(0.0);
-  for (std::size_t i = 0; i < 3; ++i) sigma = sigma + over.w[i] * heights[i].held;
+  for (std::size_t i = 0; i < 3; ++i) sigma = sigma + over.w[i] * heights[i].height;
   // Written so that a NaN bounds nothing.
   double off = sigma.hi - sigma.lo;
   const auto second = second_derivative_ranges(patch, heights, over);

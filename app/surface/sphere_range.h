@@ -22,14 +22,14 @@ Interval direction_square_range(const Patch& patch, const CornerWeights& weights
 std::optional<Interval> sphere_sigma_range(const Patch& patch, const CornerWeights& weights,
                                            const PatchCorners& corners);
 
-// Whether sigma is proven to be smooth over a sub-triangle, some of which may lie beyond the
-// triangle's border: lines do not begin to miss a vertex's sphere there, and no height comes to its
-// limit. False is no proof of the contrary.
+// Whether samples a third of a sub-triangle apart show how sigma changes over it, some of which may
+// lie beyond the triangle's border: every height is proven to be where the line meets the sphere by
+// the definition, which is analytic, or what it depends on is proven to change little. False is no
+// proof of the contrary.
 bool sphere_is_smooth(const Patch& patch, const CornerWeights& weights);
 
 // Ranges of sigma and of its derivatives along u and v, in units of D. Nothing where a height may
-// be at its limit or its line may miss the sphere, and at a vertex, about which the derivatives of
-// the curvature turn.
+// leave the definition, and at a vertex, about which the derivatives of the curvature turn.
 struct SigmaRanges {
   Interval s;
   Interval u;
@@ -48,8 +48,7 @@ std::optional<SigmaRanges> sphere_change_ranges(const Patch& patch, const Corner
 
 // Ranges of the second derivatives of sigma along the patch's edges 01, 12 and 20, each edge once
 // from end to end: along a direction of weights d (sum 0) it is - sum_{i<j} d_i d_j times that of
-// edge ij. Nothing where a height may be at its limit or its line may miss the sphere. For weights
-// within the patch.
+// edge ij. Nothing where a height may leave the definition. For weights within the patch.
 std::optional<std::array<Interval, 3>> sphere_second_derivative_ranges(
     const Patch& patch, const CornerWeights& weights);
 

@@ -108,16 +108,22 @@ class Surface {
     return choice_.alpha * dot(moved, D) / dot(D, D);
   }
 
-  // The distance along D, from the point at x of the vertex, of its sphere: |x + s D| seen from the
-  // sphere's centre, -N / c, is 1 / c.
-  static Real to_sphere(const Vector& x, const Vector& D, const Vector& N, const Real& c) {
-    const Real A = c * dot(D, D);
-    const Real B = c * dot(x, D) + dot(D, N);
+  // How far along the unit vector e, from the point at x of the vertex, its sphere is, whose centre
+  // is at -N / c: t with c t^2 + 2 B t + C = 0. Where the line is flatter to the sphere than 60
+  // degrees off its normal, or misses it, what the surface has instead.
+  static Real to_sphere(const Vector& x, const Vector& e, const Vector& N, const Real& c) {
+    const Real B = c * dot(x, e) + dot(e, N);
     const Real C = c * dot(x, x) + 2 * dot(x, N);
-    if (A == 0) return -C / (2 * B);
-    const Real discriminant = B * B - A * C;
-    if (discriminant <= 0) return -B / A;
-    return B > 0 ? Real(-C / (B + sqrt(discriminant))) : Real((sqrt(discriminant) - B) / A);
+    const Real square = B * B - c * C;
+    Real held = square;
+    if (square < Real(0.25)) {
+      held = Real(0.125) + (square > 0 ? Real(2 * square * square) : Real(0));
+    }
+    const Real sum = B + sqrt(held);
+    Real inverse = 0;
+    if (sum > 0) inverse = sum < 1 ? Real(sum * sum * (4 - 3 * sum)) : Real(1 / sum);
+    const Real nearer = c * dot(x, x) / (c * c * dot(x, x) + Real(0.25));
+    return ((held - square) * nearer - C) * inverse;
   }
 
   [[nodiscard]] Real height(std::size_t vertex, const Weights& w, const Vector& T,
@@ -133,14 +139,17 @@ class Surface {
     if (share < -1) share = -1;
     if (share > 2) share = 2;
     const Real c = data_[vertex].y + share * (data_[vertex].x - data_[vertex].y);
-    // Held to the distance from the vertex, and to less where D comes near the tangent plane.
+    // Beyond the distance from the vertex held by a parabola, which ends at 5/3 of it with 4/3.
     const Real size = length(D);
-    Real steep = dot(D, N_[vertex]) / (size * Real(0.25));
-    if (steep < 0) steep = 0;
-    if (steep > 1) steep = 1;
-    const Real most = length(x) * steep / size;
-    const Real s = to_sphere(x, D, N_[vertex], c);
-    return s > most ? most : s < -most ? Real(-most) : s;
+    const Real far = length(x);
+    Real t = to_sphere(x, D * (1 / size), N_[vertex], c);
+    if (abs(t) > far) {
+      Real left = Real(1.25) - abs(t) / far * 3 / 4;
+      if (left < 0) left = 0;
+      const Real most = far * 4 / 3 * (1 - left * left);
+      t = t < 0 ? Real(-most) : most;
+    }
+    return t / size;
   }
 
   [[nodiscard]] Real sphere(const Weights& w, const Vector& T, const Vector& D) const {

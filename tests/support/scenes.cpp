@@ -9,6 +9,7 @@
 #include "app/cli/data_folder.h"
 #include "app/mesh/mesh_builder.h"
 #include "app/mesh/model_file.h"
+#include "app/stress/stress_scenes.h"
 
 namespace trisect::test {
 
@@ -95,6 +96,19 @@ RandomPatch random_patch(std::mt19937_64& random, double spread) {
     normal = n * std::cos(tilt) + (s * std::cos(turn) + t * std::sin(turn)) * std::sin(tilt);
   }
   return patch;
+}
+
+Mesh wild_patches(int count) {
+  std::mt19937_64 random(17);
+  Mesh mesh;
+  for (int i = 0; i < count; ++i) {
+    RandomPatch wild = random_patch(random, 90.0);
+    const auto& [a, b, c] = wild.normals;
+    wild.normals[2] = 0.03 * c - glm::normalize(a * 0.7 + b);
+    const glm::ivec3 place(i % 4, i / 4 % 4, i / 16);
+    mesh = stress::joined(mesh, stress::patch(wild.positions, wild.normals), dvec3(place) * 1.5);
+  }
+  return mesh;
 }
 
 dvec3 random_weights(std::mt19937_64& random) {

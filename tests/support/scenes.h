@@ -44,6 +44,10 @@ struct RandomPatch {
 };
 RandomPatch random_patch(std::mt19937_64& random, double spread);
 
+// So many of them beside each other, with normals that nearly cancel out at a point within, about
+// which the sphere surface is nonsmooth.
+Mesh wild_patches(int count);
+
 // The weights of a random point, each point of a triangle as likely as any other.
 glm::dvec3 random_weights(std::mt19937_64& random);
 

@@ -168,8 +168,7 @@ TEST(Surface, NormalShellSharesItsEdges) {
   }
 }
 
-// However far apart the normals are, as long as the shell's direction does not vanish: where lines
-// begin to miss a sphere sigma has a root's slope, but it has no jump.
+// However far apart the normals are, as long as the shell's direction does not vanish.
 TEST(Surface, SphereSurfaceIsContinuous) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -199,8 +198,8 @@ TEST(Surface, SphereSurfaceIsContinuous) {
                                 glm::length(in_double::shell_direction(shell, tri, at(x1))));
       if (!(D > 0.05)) continue;
       ++compared;
-      // 1e-12 of the way, a root of that times the steepest of 2000 patches.
-      ASSERT_LT(change(x0, x1), 1e-4) << "patch " << i << " shell " << shell;
+      // 1e-12 of the way, times the steepest of 2000 patches. A root's slope would make it 1e-6.
+      ASSERT_LT(change(x0, x1), 1e-8) << "patch " << i << " shell " << shell;
     }
   }
   EXPECT_GT(compared, 3000U);
@@ -294,55 +293,86 @@ TEST(Surface, GeometricNormalIsThatOfDifferences) {
   }
 }
 
-TEST(SphereRoot, SolvesTheSphere) {
-  // A unit sphere that touches z = 0 from below at the origin, and lines up through it.
-  for (const double x : {0.0, 0.3, 0.9, 0.9999}) {
-    const double s = in_double::sphere_root({x, 0, 1}, {0, 0, 1}, {0, 0, 1}, 1.0);
-    // The discriminant, 1 - x^2, is exact to 1e-16; its root to that over itself.
-    EXPECT_NEAR(1.0 + s, std::sqrt(1.0 - x * x) - 1.0, 1e-13);
+// s of a line through x, seen from a vertex at the origin.
+double sphere_s(const dvec3& x, const dvec3& D, const dvec3& N, double c) {
+  return in_double::sphere_line(x, D, N, c).s;
+}
+
+TEST(SphereLine, MeetsTheSphere) {
+  // A unit sphere that touches z = 0 from below at the origin, and lines up through it, up to 60
+  // degrees off its normal where they leave it.
+  for (const double x : {0.0, 0.3, 0.866}) {
+    const in_double::SphereLine line =
+        in_double::sphere_line({x, 0, -0.5}, {0, 0, 1}, {0, 0, 1}, 1.0);
+    EXPECT_TRUE(line.regular);
+    // The square, 1 - x^2, is exact to 1e-16; its root to that over itself.
+    EXPECT_NEAR(-0.5 + line.s, std::sqrt(1.0 - x * x) - 1.0, 1e-15);
   }
   // Curvature 0 is the plane, and it is approached smoothly from both sides.
   for (const double c : {0.0, 1e-12, -1e-12, 1e-300}) {
-    EXPECT_NEAR(in_double::sphere_root({0.5, 0, 0.25}, {0, 0, 1}, {0, 0, 1}, c), -0.25, 1e-12);
+    EXPECT_NEAR(sphere_s({0.5, 0, 0.25}, {0, 0, 1}, {0, 0, 1}, c), -0.25, 1e-12);
   }
-  // A line that misses the sphere: its point next to the centre, where one that touches it does.
-  const auto past = [](double x) {
-    return in_double::sphere_root({x, 0, 0}, {0, 0, 1}, {0, 0, 1}, 1.0);
-  };
-  EXPECT_NEAR(past(1.0 + 1e-12), past(1.0 - 1e-12), 1e-5);  // the square root of the step
-  EXPECT_EQ(past(2.0), -1.0);
-  // At the vertex itself, even along the tangent plane, where everything vanishes.
-  EXPECT_EQ(in_double::sphere_root({0, 0, 0}, {1, 0, 0}, {0, 0, 1}, 0.0), 0.0);
+  // At the vertex itself, even along the tangent plane.
+  EXPECT_EQ(sphere_s({0, 0, 0}, {1, 0, 0}, {0, 0, 1}, 0.0), 0.0);
 }
 
-// Where B changes sign the nearer of the two roots becomes the farther one.
-TEST(SphereRoot, StaysOnOneSideOfTheSphere) {
+// Where the line becomes flat to the sphere, touches it, misses it; and where the way that it goes
+// through it turns round, at which the nearer of two points becomes the farther one. s and its
+// slope change by no more than the step's part of them: nothing jumps, nothing is steep.
+TEST(SphereLine, LeavesTheDefinitionSmoothly) {
+  const double step = 1e-4;
+  int irregular = 0;
+  double steepest = 0.0;
+  for (const double c : {2.0, 1.0, 0.3, 0.0, -0.3, -1.0, -2.0}) {
+    for (const double turn : {0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.1}) {
+      const auto at = [&](double angle) {
+        const dvec3 x(0.8 * std::cos(turn), 0.0, 0.8 * std::sin(turn));
+        return sphere_s(x, {std::sin(angle), 0.0, std::cos(angle)}, {0, 0, 1}, c);
+      };
+      for (double angle = -3.1; angle < 3.1; angle += step) {
+        const double change = at(angle + step) - at(angle);
+        steepest = std::max(steepest, std::abs(change) / step);
+        ASSERT_LT(std::abs(at(angle + 2.0 * step) - at(angle + step) - change), 100.0 * step * step)
+            << c << " " << turn << " " << angle;
+        const dvec3 D(std::sin(angle), 0.0, std::cos(angle));
+        const dvec3 x(0.8 * std::cos(turn), 0.0, 0.8 * std::sin(turn));
+        if (!in_double::sphere_line(x, D, {0, 0, 1}, c).regular) ++irregular;
+      }
+    }
+  }
+  EXPECT_LT(steepest, 20.0);
+  EXPECT_GT(irregular, 1000000);
+}
+
+// The root is the same on both sides of where B changes sign and the nearer of the two becomes the
+// farther one.
+TEST(SphereLine, StaysOnOneSideOfTheSphere) {
   const double h = 1e-9;
   for (const double c : {1.0, -1.0}) {
     for (const double inside : {-0.5, 0.5}) {
       // A line across the tangent plane's direction through a point beside the centre, -N / c.
       const dvec3 x0(0.0, inside, -1.0 / c);
-      const double before = in_double::sphere_root(x0 - dvec3(0, 0, h), {0, 0, 1}, {0, 0, 1}, c);
-      const double after = in_double::sphere_root(x0 + dvec3(0, 0, h), {0, 0, 1}, {0, 0, 1}, c);
-      EXPECT_NEAR(before, after, 3.0 * h);
-      EXPECT_NEAR(after, std::sqrt(0.75) / c, 3.0 * h);
+      const double before = sphere_s(x0 - dvec3(0, 0, h), {0, 0, 1}, {0, 0, 1}, c);
+      const double after = sphere_s(x0 + dvec3(0, 0, h), {0, 0, 1}, {0, 0, 1}, c);
+      EXPECT_NEAR(before, after, 10.0 * h);
     }
   }
 }
 
-TEST(SphereHeight, GoesNoFartherThanFromItsVertex) {
-  const dvec3 T(0, 0.3, 0.4);
+TEST(SphereHeight, IsHeldByTheDistanceFromItsVertex) {
   const dvec3 N(0, 0, 1);
-  const auto length = [&](const dvec3& D) {
-    return in_double::sphere_height(T, D, {0, 0, 0}, N, 0.0) * glm::length(D);
+  const auto length = [&](const dvec3& T, const dvec3& D) {
+    return in_double::sphere_height(in_double::sphere_line(T, D, N, 0.0)) * glm::length(D);
   };
-  // To the plane at right angles; along a slant for which that is farther than to the vertex;
-  // almost in the tangent plane; in it and beneath.
-  EXPECT_NEAR(length({0, 0, 2}), -0.4, 1e-15);
-  EXPECT_NEAR(length({1.0, 0.0, 0.5}), -0.5, 1e-15);
-  EXPECT_NEAR(length({1.0, 0.0, 1e-3}), -0.5 * 1e-3 / in_double::FLAT_SINE, 1e-8);
-  EXPECT_EQ(length({1.0, 0.0, 0.0}), 0.0);
-  EXPECT_EQ(length({1.0, 0.0, -1.0}), 0.0);
+  const dvec3 T(0, 0.3, 0.4);  // 0.5 from the vertex
+  // To the plane at right angles, and 60 degrees off its normal.
+  EXPECT_NEAR(length(T, {0, 0, 2}), -0.4, 1e-15);
+  EXPECT_NEAR(length({0, 0.4, 0.2}, {std::sqrt(3.0), 0, 1.0}), -0.4, 1e-15);
+  // Where that is farther than 5/4 of the distance from the vertex: 0.8 is 0.96 times the highest,
+  // 5/3 of 0.5.
+  EXPECT_NEAR(length(T, {std::sqrt(3.0), 0, 1.0}), -(5.0 / 6.0) * (1.0 - 0.29 * 0.29), 1e-15);
+  // Beneath the tangent plane.
+  EXPECT_EQ(length(T, {1.0, 0.0, -1.0}), 0.0);
 }
 
 TEST(Bisect, ConvergesOnTheSphere) {

@@ -43,8 +43,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Closed{"sphere-20", SURFACE_PHONG}, Closed{"sphere-20", SURFACE_SPHERE},
                       Closed{"torus", SURFACE_PHONG}, Closed{"capsule", SURFACE_PHONG},
                       Closed{"cube", SURFACE_FLAT}, Closed{"teapot", SURFACE_PHONG},
-                      // Fewer rays: they are incoherent, so that most subgroups wait for a ray
-                      // which traverses a nonsmooth patch.
+                      // Fewer rays: of those that graze a silhouette the oracle is asked, which
+                      // takes a millisecond there.
                       Closed{"teapot", SURFACE_SPHERE, kRays / 10}),
     [](const ::testing::TestParamInfo<Closed>& closed) {
       std::string name =
