@@ -128,7 +128,8 @@ What was aimed at, and what is there.
 
 $(goals)
 
-Faster than Embree's packets it is by what was aimed at (half of it on 22.3.6, whose loads are slower). What an image only takes
+Faster than Embree's packets it is by what was aimed at (half of it on 22.3.6, whose loads are slower), or nearly, but for the
+teapot's sphere surface. What an image only takes
 depends on the machine's memory, and what a frame takes hardly: the same machine has shown 1.1 and 2.4 ms for it. Before anything
 is searched, each ray is set up, and each hit shaded and stored. Tried for it in vain: one kernel for the sky and the rest,
 reductions by shuffles, loads of projections by address, three steps of Newton's method on the bounds' quadratic instead of two,
