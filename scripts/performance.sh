@@ -133,8 +133,8 @@ teapot's sphere surface. What an image only takes
 depends on the machine's memory, and what a frame takes hardly: the same machine has shown 1.1 and 2.4 ms for it. Before anything
 is searched, each ray is set up, and each hit shaded and stored. Tried for it in vain: one kernel for the sky and the rest,
 reductions by shuffles, loads of projections by address, three steps of Newton's method on the bounds' quadratic instead of two,
-cones tested a ray at a time. The teapot's sphere surface took ten times as long as the others while its slope had no bound where
-lines begin to miss a sphere ([surfaces](surfaces.md)). What it takes more now goes with its steep rims: 47,000 subpatches, a fifth
+cones tested a ray at a time. The teapot's sphere surface took ten times as long as the others while its heights went like 1 / (D.N)
+up to a clamp ([surfaces](surfaces.md)). What it takes more now goes with its steep rims: 47,000 subpatches, a fifth
 of which see no direction from which they could not fold.
 
 ## What limits it
