@@ -180,11 +180,16 @@ real held_height(real s, real highest) {
   return s < real(0.0) ? -held : held;
 }
 
-// s_i of the sphere surface: the displacement, in units of D, toward the sphere of vertex i.
-real sphere_height(SphereLine line) {
-  if (line.s * line.s * line.DD <= FREE * HIGHEST * FREE * HIGHEST * line.xx) return line.s;
-  return held_height(line.s, HIGHEST * sqrt(line.xx / line.DD));
+// The most that a line's height can be.
+real highest_of(SphereLine line) { return HIGHEST * sqrt(line.xx / line.DD); }
+
+// Whether a line's height is its s.
+bool is_free(SphereLine line) {
+  return line.s * line.s * line.DD <= FREE * HIGHEST * FREE * HIGHEST * line.xx;
 }
+
+// s_i of the sphere surface: the displacement, in units of D, toward the sphere of vertex i.
+real sphere_height(SphereLine line) { return is_free(line) ? line.s : held_height(line.s, highest_of(line)); }
 
 // At the point T along D of vertex i, whose curvature is c there.
 SphereLine vertex_line(Triangle tri, int i, vec3 T, vec3 D, real blend) {
@@ -286,9 +291,9 @@ Gradient sphere_gradient(SphereLine line, vec3 T, vec3 D, vec3 vertex, vec3 N, r
   } else {
     gradient = irregular_gradient(line, x0, D, N, c, dc);
   }
-  if (line.s * line.s * line.DD <= FREE * HIGHEST * FREE * HIGHEST * line.xx) return gradient;
-  // sphere_height = highest (1 - left^2)
-  real highest = HIGHEST * sqrt(line.xx / line.DD);
+  if (is_free(line)) return gradient;
+  // held_height = highest (1 - left^2)
+  real highest = highest_of(line);
   real left = max(HELD - abs(line.s) / highest, real(0.0));
   real of_highest = highest * (real(1.0) - left * (real(2.0) * HELD - left));
   if (line.s < real(0.0)) of_highest = -of_highest;

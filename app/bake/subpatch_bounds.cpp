@@ -185,10 +185,8 @@ void bound_subpatch(const PatchData& patch, const ConeLimits& limits,
   const std::size_t index = subpatches.size();
   subpatches.push_back(bounds_of(patch, sub_triangle, found, triangle));
   const bool nonsmooth = subpatches[index].gradient_lipschitz == NONSMOOTH;
-  const bool deepest =
-      nonsmooth ? level >= kMostLevels &&
-                      (level == kMostLevelsOfNonsmooth || !has_smooth_quarter(patch, sub_triangle))
-                : level >= kMostLevels;
+  const bool deepest = level >= kMostLevels && (!nonsmooth || level == kMostLevelsOfNonsmooth ||
+                                                !has_smooth_quarter(patch, sub_triangle));
   if (close || deepest) {
     if (!nonsmooth) subpatches[index].cone = normal_cone(patch, sub_triangle, found);
     if (subpatches[index].cone.w <= limits.widest || level >= limits.levels) return;

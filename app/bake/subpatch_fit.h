@@ -39,11 +39,11 @@ struct Fit {
   std::vector<RangedPiece> pieces;  // of a subpatch that may be nonsmooth, its overlap included
 };
 
-// For the subpatch over a sub-triangle and its overlap with the neighbours. An error of which
-// nothing is known is UNBOUNDED.
-// Whether samples may not show how sigma changes over a subpatch and its overlap.
+// Whether samples may not show how sigma changes over a subpatch and where its cone goes beyond it.
 bool may_be_nonsmooth(const PatchData& patch, const in_double::SubTriangle& sub_triangle);
 
+// For the subpatch over a sub-triangle and its overlap with the neighbours. An error of which
+// nothing is known is UNBOUNDED.
 Fit fit_subpatch(const PatchData& patch, const in_double::SubTriangle& sub_triangle);
 
 // Fit::tangent_error over a larger sub-triangle.
