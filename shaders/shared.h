@@ -205,8 +205,9 @@ struct QueueState {
 const uint TRIANGLE_BYTES = 192u;
 const uint SUBPATCH_BYTES = 96u;
 const uint BALL_BYTES = 16u;  // Triangle::Domain or SubpatchBounds::ball
-// Of a node, to test its children, and to see what one of them links to.
+// Of a node, to test its children, to test one of them, and to see what it links to.
 const uint BVH_TEST_BYTES = 96u;
+const uint BVH_BOX_BYTES = 32u;
 const uint BVH_LINK_BYTES = 4u;
 
 // A part of an image's rays: workgroups (tiles) first_group, first_group + 1, ... in raster order.
