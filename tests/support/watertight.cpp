@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -9,6 +10,7 @@
 
 #include "app/bake/bvh.h"
 #include "app/bake/subpatch_bounds.h"
+#include "app/base/parallel_rows.h"
 #include "app/dispatch/ray_caster.h"
 #include "app/dispatch/trace_settings.h"
 #include "app/oracle/oracle.h"
@@ -103,22 +105,33 @@ Leaks count_leaks(const std::string& asset, uint32_t surface, std::size_t count,
       rays.push_back(one.ray);
     }
     const std::vector<CastHit> hits = caster.cast(rays);
+    std::vector<std::size_t> suspects;
     for (std::size_t i = 0; i < hits.size(); ++i) {
       const CastHit& hit = hits[i];
       if (!std::isfinite(hit.z) || !std::isfinite(hit.u) || !std::isfinite(hit.v)) ++leaks.nans;
       const double z = static_cast<double>(hit.z);
-      if (hit.triangle != NO_TRIANGLE && z <= aimed[i].target + behind) continue;
-      ++leaks.suspects;
-      const OracleRay ray{dvec3(rays[i].anchor), glm::normalize(dvec3(rays[i].direction))};
-      const OracleAnswer answer = oracle.first(ray, 1e-7 * 4.0 * scene.radius);
-      if (!answer.decidable) ++leaks.undecided;
-      if (!answer.decidable || !answer.hit) continue;
-      // Across the surface: a ray that grazes it turns a rounding sideways into far more along
-      // itself.
-      const double across =
-          (z - answer.root.t) * std::abs(glm::dot(answer.root.normal, ray.direction));
-      if (hit.triangle == NO_TRIANGLE || across > 2e-6 * scene.radius) ++leaks.leaks;
+      if (hit.triangle == NO_TRIANGLE || z > aimed[i].target + behind) suspects.push_back(i);
     }
+    leaks.suspects += suspects.size();
+    std::atomic<std::size_t> undecided = 0;
+    std::atomic<std::size_t> leaking = 0;
+    parallel_chunks(suspects.size(), 64, [&](std::size_t first, std::size_t end) {
+      for (std::size_t k = first; k < end; ++k) {
+        const CastHit& hit = hits[suspects[k]];
+        const CastRay& ray = rays[suspects[k]];
+        const OracleRay asked{dvec3(ray.anchor), glm::normalize(dvec3(ray.direction))};
+        const OracleAnswer answer = oracle.first(asked, 1e-7 * 4.0 * scene.radius);
+        if (!answer.decidable) ++undecided;
+        if (!answer.decidable || !answer.hit) continue;
+        // Across the surface: a ray that grazes it turns a rounding sideways into far more along
+        // itself.
+        const double across = (static_cast<double>(hit.z) - answer.root.t) *
+                              std::abs(glm::dot(answer.root.normal, asked.direction));
+        if (hit.triangle == NO_TRIANGLE || across > 2e-6 * scene.radius) ++leaking;
+      }
+    });
+    leaks.undecided += undecided;
+    leaks.leaks += leaking;
     leaks.rays += aimed.size();
   }
   return leaks;
