@@ -49,26 +49,47 @@ BoxRay box_ray(PixelRay ray) {
   return boxed;
 }
 
+// Where a ray meets the planes of a node's grid: plane q of each axis at q along + enter, or + leave, by which the slab between
+// two planes is enlarged.
+struct RayInGrid {
+  vec3 along;
+  vec3 enter;
+  vec3 leave;
+};
+
+RayInGrid ray_in_grid(BoxRay ray, vec3 origin, vec3 grid_step) {
+  RayInGrid grid;
+  grid.along = grid_step * ray.inverse;
+  vec3 first = (origin - ray.anchor) * ray.inverse;
+  // The bake puts planes where `origin + q grid_step` is in single precision. The products here round otherwise: `first`
+  // twice, q along three times with the bake's own, and the enlarged `first` once more, at most 2^-24 of it each time.
+  const float roundings = 2.384185791015625e-07;  // 2^-22
+  const float planes = float((1u << BVH_PLANE_BITS) - 1u);
+  vec3 slack = ray.slack + (abs(first) + abs(grid.along) * planes) * roundings;
+  grid.enter = first - slack;
+  grid.leave = first + slack;
+  return grid;
+}
+
 // Whether the ray may meet the box of a child before the distance `end`; false is certain. Boxes are tested by slabs (Kay &
 // Kajiya 1986, "Ray tracing complex scenes").
-bool may_meet_child(BoxRay ray, vec3 origin, vec3 grid_step, uvec2 box, float end) {
+bool may_meet_child(BoxRay ray, RayInGrid grid, uvec2 box, float end) {
   uint near = (box.x & ~ray.back) | (box.y & ray.back);
   uint far = (box.y & ~ray.back) | (box.x & ray.back);
-  vec3 enter = (origin + planes_of(near) * grid_step - ray.anchor) * ray.inverse - ray.slack;
-  vec3 leave = (origin + planes_of(far) * grid_step - ray.anchor) * ray.inverse + ray.slack;
-  float first = max(max(enter.x, enter.y), max(enter.z, ray.begin));
-  float last = min(min(leave.x, leave.y), min(leave.z, end));
+  vec3 enter = planes_of(near) * grid.along + grid.enter;
+  vec3 leave = planes_of(far) * grid.along + grid.leave;
+  float first = larger_of(larger_of(enter.x, enter.y), larger_of(enter.z, ray.begin));
+  float last = smaller_of(smaller_of(leave.x, leave.y), smaller_of(leave.z, end));
   return first <= last + BVH_SLACK * (abs(first) + abs(last));
 }
 
 // Bit k: the ray may meet the node's child at place k before `end`.
 uint places_met(BoxRay ray, uint node, float end) {
   BvhNode at = bvh[node];
-  vec3 origin = vec3(at.origin_x, at.origin_y, at.origin_z);
-  vec3 grid_step = vec3(at.step_x, at.step_y, at.step_z);
+  RayInGrid grid = ray_in_grid(ray, vec3(at.origin_x, at.origin_y, at.origin_z), vec3(at.step_x, at.step_y, at.step_z));
   uint met = 0u;
   for (uint k = 0u; k < BVH_CHILDREN; ++k) {
-    if (may_meet_child(ray, origin, grid_step, at.boxes[k], end)) met |= 1u << k;
+    if (may_meet_child(ray, grid, at.boxes[k], end)) met |= 1u << k;
   }
   met &= at.children;
   // From children to places: neighbours change places along each axis on which the ray goes back.

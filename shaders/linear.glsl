@@ -1,6 +1,11 @@
+// Of two numbers; if one is a NaN, b. min() and max() keep to the other one's value then, for which llvmpipe takes three
+// instructions in place of one: 5 to 10% of a frame.
+real smaller_of(real a, real b) { return a < b ? a : b; }
+
+real larger_of(real a, real b) { return a > b ? a : b; }
+
 // Vector products as explicit sums, so that every compiler (glslang, Mesa's OpenGL front end, g++, clang)
 // rounds in the same order; the built-in dot and normalize do not promise that.
-
 real dot3(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 vec3 cross3(vec3 a, vec3 b) {

@@ -60,8 +60,8 @@ bool may_meet_box(Packet packet, vec3 box_lo, vec3 box_hi, float end) {
   vec3 leave = b * mix(packet.least_inverse, packet.most_inverse, greaterThanEqual(b, vec3(0.0)));
   enter = mix(enter, vec3(-1e30), packet.skip_slab);
   leave = mix(leave, vec3(1e30), packet.skip_slab);
-  float first = max(max(enter.x, enter.y), max(enter.z, packet.begin));
-  float last = min(min(leave.x, leave.y), min(leave.z, end));
+  float first = larger_of(larger_of(enter.x, enter.y), larger_of(enter.z, packet.begin));
+  float last = smaller_of(smaller_of(leave.x, leave.y), smaller_of(leave.z, end));
   return first <= last + BVH_SLACK * (abs(first) + abs(last));
 }
 

@@ -52,7 +52,7 @@ bool is_still_met(BoxRay ray, uint node, uint child, float end, inout Traversal 
   vec3 origin = vec3(bvh[node].origin_x, bvh[node].origin_y, bvh[node].origin_z);
   vec3 grid_step = vec3(bvh[node].step_x, bvh[node].step_y, bvh[node].step_z);
   if (COUNTS) traversal.counts.bytes += BVH_BOX_BYTES;
-  return may_meet_child(ray, origin, grid_step, bvh[node].boxes[child], end);
+  return may_meet_child(ray, ray_in_grid(ray, origin, grid_step), bvh[node].boxes[child], end);
 }
 
 // The next subpatch whose box the ray meets before the distance `end`; NO_TRIANGLE if there is none. If it has given up there

@@ -52,8 +52,12 @@ bool separated_along(ControlNet net, vec2 a, real tolerance) {
   real c7 = cross2(net.b102, a);
   real c8 = cross2(net.b201, a);
   real c9 = cross2(net.b111, a);
-  real low = min(min(min(min(c0, c1), min(c2, c3)), min(min(c4, c5), min(c6, c7))), min(c8, c9));
-  real high = max(max(max(max(c0, c1), max(c2, c3)), max(max(c4, c5), max(c6, c7))), max(c8, c9));
+  real low = smaller_of(smaller_of(smaller_of(smaller_of(c0, c1), smaller_of(c2, c3)),
+                                   smaller_of(smaller_of(c4, c5), smaller_of(c6, c7))),
+                        smaller_of(c8, c9));
+  real high = larger_of(larger_of(larger_of(larger_of(c0, c1), larger_of(c2, c3)),
+                                  larger_of(larger_of(c4, c5), larger_of(c6, c7))),
+                        larger_of(c8, c9));
   // |a x b| <= (|a.x| + |a.y|) tolerance for a b whose components are at most the tolerance; and rounding.
   real most = tolerance * (abs(a.x) + abs(a.y)) + HULL_ROUNDINGS * max(abs(low), abs(high));
   return low > most || high < -most;
