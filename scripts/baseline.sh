@@ -1,13 +1,11 @@
 #!/bin/bash
-# Measures the baseline that README and docs/baseline.md quote, and writes docs/baseline.md and README's pictures.
-# About three minutes.
+# Measures the baseline that README quotes, and writes docs/baseline.md. Two minutes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-scripts/setup.sh build docs
+. scripts/measure.sh
+ready build docs
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-
-. scripts/measure.sh
 
 # thesis DRIVER MODEL SURFACE RANK RUNS
 thesis() { measure "$1" "$2" "$5" --preset thesis --surface "$3" --rank "$4"; }
@@ -66,8 +64,3 @@ END
   done
 } > "$work/baseline.md"
 mv "$work/baseline.md" docs/baseline.md
-picture() { build/release/trisect render "assets/$1.obj" --size 480x360 -o "docs/$2.png" "${@:3}" >/dev/null; }
-picture teapot teapot
-picture sphere-20 sphere-20
-picture sphere-20 sphere-20-rank-10 --preset thesis --shading plain
-cat docs/baseline.md
