@@ -61,11 +61,12 @@ RayInGrid ray_in_grid(BoxRay ray, vec3 origin, vec3 grid_step) {
   RayInGrid grid;
   grid.along = grid_step * ray.inverse;
   vec3 first = (origin - ray.anchor) * ray.inverse;
-  // The bake puts planes where `origin + q grid_step` is in single precision. The products here round otherwise: `first`
-  // twice, q along three times with the bake's own, and the enlarged `first` once more, at most 2^-24 of it each time.
+  // The bake puts plane q where origin + q grid_step is in single precision, two roundings. Here `first` rounds twice and once
+  // more when it is enlarged, `along` and its product with q once each. With the bake's that is four times 2^-24 of either;
+  // what else rounds does so relative to the anchor, which ray.slack is for, or to the sum, for which the comparison has room.
   const float roundings = 2.384185791015625e-07;  // 2^-22
-  const float planes = float((1u << BVH_PLANE_BITS) - 1u);
-  vec3 slack = ray.slack + (abs(first) + abs(grid.along) * planes) * roundings;
+  const float last_plane = float((1u << BVH_PLANE_BITS) - 1u);
+  vec3 slack = ray.slack + (abs(first) + abs(grid.along) * last_plane) * roundings;
   grid.enter = first - slack;
   grid.leave = first + slack;
   return grid;
