@@ -57,7 +57,9 @@ struct RayInGrid {
   vec3 leave;
 };
 
-RayInGrid ray_in_grid(BoxRay ray, vec3 origin, vec3 grid_step) {
+RayInGrid ray_in_grid(BoxRay ray, uint node) {
+  vec3 origin = vec3(bvh[node].origin_x, bvh[node].origin_y, bvh[node].origin_z);
+  vec3 grid_step = vec3(bvh[node].step_x, bvh[node].step_y, bvh[node].step_z);
   RayInGrid grid;
   grid.along = grid_step * ray.inverse;
   vec3 first = (origin - ray.anchor) * ray.inverse;
@@ -86,13 +88,12 @@ bool may_meet_child(BoxRay ray, RayInGrid grid, uvec2 box, float end) {
 
 // Bit k: the ray may meet the node's child at place k before `end`.
 uint places_met(BoxRay ray, uint node, float end) {
-  BvhNode at = bvh[node];
-  RayInGrid grid = ray_in_grid(ray, vec3(at.origin_x, at.origin_y, at.origin_z), vec3(at.step_x, at.step_y, at.step_z));
+  RayInGrid grid = ray_in_grid(ray, node);
   uint met = 0u;
   for (uint k = 0u; k < BVH_CHILDREN; ++k) {
-    if (may_meet_child(ray, grid, at.boxes[k], end)) met |= 1u << k;
+    if (may_meet_child(ray, grid, bvh[node].boxes[k], end)) met |= 1u << k;
   }
-  met &= at.children;
+  met &= bvh[node].children;
   // From children to places: neighbours change places along each axis on which the ray goes back.
   met = (ray.octant & 1u) != 0u ? (met & 0x55u) << 1 | (met >> 1 & 0x55u) : met;
   met = (ray.octant & 2u) != 0u ? (met & 0x33u) << 2 | (met >> 2 & 0x33u) : met;

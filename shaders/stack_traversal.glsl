@@ -49,10 +49,8 @@ StackTraversal begin_stack_traversal(PixelRay ray, float end, inout Traversal tr
 // Whether the ray may meet this child of a node before the distance `end`. It is asked where a hit has come nearer since all
 // children of the node were tested: every eighth node need not be read then, of a tree over a million patches.
 bool is_still_met(BoxRay ray, uint node, uint child, float end, inout Traversal traversal) {
-  vec3 origin = vec3(bvh[node].origin_x, bvh[node].origin_y, bvh[node].origin_z);
-  vec3 grid_step = vec3(bvh[node].step_x, bvh[node].step_y, bvh[node].step_z);
   if (COUNTS) traversal.counts.bytes += BVH_BOX_BYTES;
-  return may_meet_child(ray, ray_in_grid(ray, origin, grid_step), bvh[node].boxes[child], end);
+  return may_meet_child(ray, ray_in_grid(ray, node), bvh[node].boxes[child], end);
 }
 
 // The next subpatch whose box the ray meets before the distance `end`; NO_TRIANGLE if there is none. If it has given up there
