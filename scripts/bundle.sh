@@ -36,7 +36,10 @@ cp scripts/bundle/check.sh scripts/bundle/run.sh LICENSE "$bundle"
 git describe --always --dirty --exclude '*' >"$bundle/commit"
 
 archive=build/bundle/trisect.tar.xz
-tar -C build/bundle --owner=0 --group=0 -cf - trisect | xz -9 -T0 >"$archive"
+filters=(--lzma2=preset=9)
+# xz packs x86's machine code more closely if told that it is some.
+[ "$(uname -m)" != x86_64 ] || filters=(--x86 "${filters[@]}")
+tar -C build/bundle --owner=0 --group=0 -cf - trisect | xz "${filters[@]}" -T0 >"$archive"
 bytes=$(stat -c %s "$archive")
 echo "$archive: $(awk "BEGIN { printf \"%.1f\", $bytes / 1048576 }") MiB, unpacked $(du -sm "$bundle" | cut -f1) MiB"
 if [ "$bytes" -ge "$most" ]; then

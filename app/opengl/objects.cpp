@@ -81,7 +81,6 @@ Buffer::Buffer(std::size_t size, const std::string& name) {
   glBindBuffer(GL_COPY_WRITE_BUFFER, buffer);
   glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(size), nullptr, GL_DYNAMIC_COPY);
   check(fmt::format("no {} MiB for the {} buffer", size >> 20U, name));
-  clear();
 }
 
 void Buffer::write(std::span<const std::byte> bytes) {

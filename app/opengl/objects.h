@@ -76,15 +76,16 @@ Program make_program(const std::string& head, const std::vector<Stage>& stages);
 
 class Buffer {
  public:
-  // size: in bytes, which are 0 at first. name: for the message. Throws DeviceError if there is no
-  // memory.
+  // size: in bytes, which are undefined at first. name: for the message. Throws DeviceError if
+  // there is no memory.
   Buffer(std::size_t size, const std::string& name);
 
   // Copies the bytes to the buffer's beginning.
   void write(std::span<const std::byte> bytes);
   // Copies the buffer's bytes from `offset` on, and waits for commands that write them.
   void read(std::size_t offset, std::span<std::byte> bytes) const;
-  // Sets all bytes to 0.
+  // Sets all bytes to 0, for shaders that are next. Not ahead of write(): NVIDIA's driver 580.159
+  // has cleared a buffer after a write that came later.
   void clear();
   // Binds it to an indexed target, such as GL_SHADER_STORAGE_BUFFER.
   void bind(GLenum target, GLuint binding) const;
