@@ -88,7 +88,11 @@ Enclosure enclose_quotient(const Patch& patch, const CornerWeights& weights,
 
 Enclosure enclose_sphere(const Patch& patch, const CornerWeights& weights,
                          const PatchCorners& corners) {
-  const Enclosure wide = around_base(corners, patch.longest * (1.0 + kRounding));
+  // |s_i D| is at most HIGHEST times the distance of T from P_i, T - P_i = sum w_j (P_j - P_i), and
+  // with m = sum |w_i| the sum of |w_i| |w_j| over i != j is at most 2/3 m^2.
+  const double m = largest_weights(weights);
+  const double farthest = in_double::HIGHEST * patch.longest * m * m * (2.0 / 3.0);
+  const Enclosure wide = around_base(corners, farthest * (1.0 + kRounding));
   const auto sigma = sphere_sigma_range(patch, weights, corners);
   if (!sigma || !std::isfinite(sigma->lo) || !std::isfinite(sigma->hi)) return wide;
   Enclosure e = around_base(corners, 0.0);

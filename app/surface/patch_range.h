@@ -92,7 +92,8 @@ struct Enclosure {
 //         sigma - L = (alpha D.K - L |D|^2) / |D|^2 lies between the quotients of the extreme
 //         Bernstein coefficients: a band whose width falls with the square of the sub-triangle's
 //         size. Where D turns too fast for that, |sigma D| <= |alpha K|.
-// sphere: the range of sigma, or |sigma D| <= the longest edge.
+// sphere: the range of sigma, or, where directions nearly vanish, how far a height is from its
+//         vertex at most: within the patch 10/9 of the longest edge.
 Enclosure enclose(const SurfaceChoice& choice, const Patch& patch,
                   const in_double::SubTriangle& sub_triangle);
 

@@ -139,14 +139,15 @@ class Surface {
     if (share < -1) share = -1;
     if (share > 2) share = 2;
     const Real c = data_[vertex].y + share * (data_[vertex].x - data_[vertex].y);
-    // Beyond the distance from the vertex held by a parabola, which ends at 5/3 of it with 4/3.
+    // Beyond 5/4 of the distance from the vertex held by a parabola, which ends at 25/12 of it with
+    // 5/3.
     const Real size = length(D);
     const Real far = length(x);
     Real t = to_sphere(x, D * (1 / size), N_[vertex], c);
-    if (abs(t) > far) {
-      Real left = Real(1.25) - abs(t) / far * 3 / 4;
+    if (4 * abs(t) > 5 * far) {
+      Real left = Real(1.25) - abs(t) / far * 3 / 5;
       if (left < 0) left = 0;
-      const Real most = far * 4 / 3 * (1 - left * left);
+      const Real most = far * 5 / 3 * (1 - left * left);
       t = t < 0 ? Real(-most) : most;
     }
     return t / size;
@@ -328,6 +329,12 @@ class Check {
 };
 
 }  // namespace
+
+glm::dvec3 point_in_fifty_digits(const SurfaceChoice& choice, const Triangle& tri,
+                                 const glm::dvec3& w) {
+  const Vector S = Surface(choice, tri).point({Real(w.y), Real(w.z)});
+  return {static_cast<double>(S.x), static_cast<double>(S.y), static_cast<double>(S.z)};
+}
 
 Opinion opinion_on(const Certificate& certificate, const RayTube& tube, const SurfaceChoice& choice,
                    const Triangle& tri) {

@@ -26,4 +26,8 @@ enum class Opinion {
 Opinion opinion_on(const Certificate& certificate, const RayTube& tube, const SurfaceChoice& choice,
                    const Triangle& tri);
 
+// The surface that opinions are about, at the weights 1 and 2 of w.
+glm::dvec3 point_in_fifty_digits(const SurfaceChoice& choice, const Triangle& tri,
+                                 const glm::dvec3& w);
+
 }  // namespace trisect::test

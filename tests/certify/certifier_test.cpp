@@ -14,6 +14,7 @@
 #include "app/dispatch/trace_settings.h"
 #include "app/oracle/oracle_tracer.h"
 #include "app/stress/stress_scenes.h"
+#include "app/surface/patch_range.h"
 #include "app/surface/to_double.h"
 #include "tests/certify/certificate_check.h"
 #include "tests/certify/pixel_proof.h"
@@ -23,6 +24,7 @@ namespace trisect {
 namespace {
 
 using glm::dvec3;
+using in_double::SubTriangle;
 using test::Opinion;
 
 constexpr std::array kChoices{SurfaceChoice{SURFACE_FLAT, 0.0, SHELL_NORMAL},
@@ -239,6 +241,50 @@ TEST(Certificates, HoldInFiftyDigitsAndLeaveNoGap) {
               50U);
   }
   for (const std::size_t count : kinds) EXPECT_GT(count, 10U);
+}
+
+// The surfaces written once more are those that the program has, also where lines miss their
+// spheres, where heights are held, and beyond the patch.
+TEST(Certificates, AreLookedAtWithTheProgramsSurfaces) {
+  std::mt19937_64 random(44);
+  const SubTriangle beyond{dvec3(-0.125), 1.375};
+  double farthest = 0.0;
+  for (const SurfaceChoice& choice : test::kSurfaceChoices) {
+    SCOPED_TRACE(testing::Message() << "surface " << choice.surface << " shell " << choice.shell);
+    const SurfaceChoice kernels_choice = with_single_alpha(choice);
+    std::size_t held = 0;
+    BakedScene scene = bake(test::wild_patches(80), choice);
+    for (int i = 0; i < 120; ++i) {
+      const test::RandomPatch corners = test::random_patch(random, 90.0);
+      Triangle tri = bake_triangle(corners.positions, corners.normals, choice);
+      // Curvatures that the normals do not go with, so that heights come to be held.
+      for (vec4& data : tri.VertexData) data.x = i % 2 == 0 ? -6.0F : 6.0F;
+      scene.triangles.push_back(tri);
+    }
+    for (const Triangle& tri : scene.triangles) {
+      if (!has_surface(tri)) continue;
+      const Patch patch = patch_of(choice.shell, tri);
+      for (const dvec3& l : test::weight_grid(8)) {
+        const dvec3 w = in_double::weights_of(beyond, l);
+        const dvec3 T = in_double::base_point(patch.triangle, w);
+        const dvec3 D = in_double::shell_direction(choice.shell, patch.triangle, w);
+        // Roundings of D count |D| times less.
+        const double steep = longest_of(patch.D) / glm::length(D);
+        const dvec3 S = in_double::surface_point(shape_of(kernels_choice), patch.triangle, w);
+        const double off = glm::distance(S, test::point_in_fifty_digits(kernels_choice, tri, w));
+        farthest = std::max(farthest, off / (steep * steep * patch.longest));
+        if (choice.surface != SURFACE_SPHERE) continue;
+        const dvec3 blends = in_double::curvature_blends(patch.triangle, w, T);
+        for (int k = 0; k < 3; ++k) {
+          const auto line = in_double::vertex_line(patch.triangle, k, T, D, blends[k]);
+          if (!in_double::is_free(line)) ++held;
+        }
+      }
+    }
+    EXPECT_GE(held, choice.surface == SURFACE_SPHERE ? 50U : 0U);
+  }
+  // A hundred roundings or so, however short D is.
+  EXPECT_LT(farthest, 1e-13);
 }
 
 // Roundings do not vanish where the surface passes the scene's origin and the ray begins there.

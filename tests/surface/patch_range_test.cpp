@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <random>
 
 #include "app/bake/bake.h"
@@ -49,6 +51,46 @@ TEST(Enclosure, HoldsTheSurfaceOverSubTrianglesOfAllSizes) {
     }
   }
   EXPECT_GT(points, 200000U);
+}
+
+// Where directions nearly vanish the sphere surface's enclosure is the flat triangle with the most
+// that a height can be about it; beyond the patch that is more than within.
+TEST(Enclosure, HoldsTheSphereSurfaceWhereDirectionsVanish) {
+  const SurfaceChoice choice{SURFACE_SPHERE, 0.0, SHELL_NORMAL};
+  const in_double::Shape shape = shape_of(choice);
+  std::mt19937_64 random(10);
+  double farthest = 0.0;
+  std::size_t wide = 0;
+  for (int i = 0; i < 400; ++i) {
+    const test::RandomPatch corners = test::random_patch(random, 80.0);
+    const auto& [a, b, c] = corners.normals;
+    // Normals that cancel out where the weights are 1/3, or beyond the edge from a to b.
+    const bool within = i % 2 == 0;
+    const dvec3 last = within ? -(a + b) : a + b;
+    if (glm::length(last) < 0.1) continue;
+    Triangle tri = bake_triangle(corners.positions, {a, b, glm::normalize(last)}, choice);
+    for (vec4& data : tri.VertexData) data.x = data.y = i % 4 < 2 ? -8.0F : 8.0F;
+    const Patch patch = patch_of(choice.shell, tri);
+    const double k = glm::length(last);
+    // Weights in proportion to 1, 1 and k or -k cancel.
+    const dvec3 at = dvec3(1.0, 1.0, within ? k : -k) / (within ? 2.0 + k : 2.0 - k);
+    if (std::abs(at.x) > 3.0) continue;
+    for (const double size : {0.5, 0.125, 1e-3}) {
+      const in_double::SubTriangle node{at - size / 3.0, size};
+      const Enclosure enclosure = enclose(choice, patch, node);
+      if (enclosure.sigma.lo == enclosure.sigma.hi) ++wide;
+      for (const dvec3& l : test::weight_grid(12)) {
+        const dvec3 w = in_double::weights_of(node, l);
+        const dvec3 S = in_double::surface_point(shape, patch.triangle, w);
+        const dvec3 up =
+            glm::normalize(in_double::shell_direction(choice.shell, patch.triangle, w));
+        const Interval extent = extent_along(enclosure, S, up);
+        farthest = std::max({farthest, extent.lo / patch.longest, -extent.hi / patch.longest});
+      }
+    }
+  }
+  EXPECT_LE(farthest, 0.0);
+  EXPECT_GT(wide, 100U);
 }
 
 }  // namespace
