@@ -5,6 +5,8 @@
 #include "shared.h"
 #include "patch_color.glsl"
 
+// A pipeline for each of the ways: llvmpipe computes all branches for every pixel, also those that none of them takes.
+layout(constant_id = CONSTANT_SCREEN) const uint SCREEN = SCREEN_PIXEL;
 layout(push_constant) uniform PushBlock { ScreenPush push; };
 layout(std430, binding = BINDING_COLOR) readonly restrict buffer ColorBlock { vec4 colors[]; };
 layout(std430, binding = BINDING_AOVS) readonly restrict buffer AovsBlock { PixelAovs pixels[]; };
@@ -71,13 +73,12 @@ vec3 mean_color(uvec2 first, uint across) {
 void main() {
   vec2 frame = vec2(push.frame_width, push.frame_height);
   vec2 position = gl_FragCoord.xy / vec2(push.width, push.height) * frame;
-  uint across = push.frame_width / push.width;
-  if (push.shown != SHOWN_COLOR) {
+  if (SCREEN == SCREEN_OUTPUT) {
     shown = vec4(output_of(index_of(uvec2(position))), 1.0);
-  } else if (across > 1u) {
+  } else if (SCREEN == SCREEN_MEAN) {
+    uint across = push.frame_width / push.width;
     shown = vec4(mean_color(uvec2(gl_FragCoord.xy) * across, across), 1.0);
-  } else if (push.frame_width == push.width) {
-    // Frame and window have the same size: no interpolation.
+  } else if (SCREEN == SCREEN_PIXEL) {
     shown = texelFetch(texture_of_frame, ivec2(gl_FragCoord.xy), 0);
   } else {
     // The texture may be larger than the frame: clamping to the centres of the frame's outermost pixels keeps what lies

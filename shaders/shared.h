@@ -344,6 +344,13 @@ const float ERROR_NOTHING = -1.0;    // a miss, as it should be
 const float ERROR_UNDECIDED = -2.0;  // the reference cannot tell
 const float ERROR_WRONG = -3.0;      // a hit instead of a miss, or the other way round
 
+// How a window gets the colour of a pixel from the frame.
+const uint SCREEN_PIXEL = 0u;     // that of the same pixel: they have the same size
+const uint SCREEN_ENLARGED = 1u;  // interpolated between pixels
+const uint SCREEN_MEAN = 2u;      // the mean of several pixels
+const uint SCREEN_OUTPUT = 3u;    // from an output other than SHOWN_COLOR
+#define SCREEN_WAYS 4
+
 // Workgroups are TILE_SIZE x TILE_SIZE pixels.
 #define TILE_SIZE 8
 // Most subpatches of a tile's list. The rays of a tile with more go through all subpatches. The
@@ -387,3 +394,4 @@ const float ERROR_WRONG = -3.0;      // a hit instead of a miss, or the other wa
 #define CONSTANT_NONSMOOTH 8
 #define CONSTANT_EIGHT_LANES 9
 #define CONSTANT_FILLS 10
+#define CONSTANT_SCREEN 11

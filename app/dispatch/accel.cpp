@@ -13,9 +13,10 @@ namespace {
 constexpr std::size_t kMostSubpatches = (std::size_t{128} << 20U) / sizeof(ProjectedSubpatch);
 
 // Tiles project and bin all subpatches for every frame. With more subpatches per tile than this,
-// the BVH is faster: measured on models of 1,300 to 200,000 subpatches, images of 200x150 to
-// 800x600, lavapipe. With half as many tiles take half the time, with twice as many up to twice.
-constexpr std::size_t kSubpatchesOfTile = 24;
+// the BVH is likely to be faster: measured on three models of 20,000 to 47,000 subpatches, images
+// of 100x75 to 800x600, lavapipe. On Mesa 25.0.7 both take the same time at 45 to 60 (phong) or 25
+// (sphere surface), on 22.3.6 at 70 and more or 50.
+constexpr std::size_t kSubpatchesOfTile = 40;
 
 // With the BVH, rays go down it in packets while neighbouring rays meet the same subpatches, else
 // one by one. Measured on spheres at 800x600, lavapipe: 82,000 subpatches take the same time either

@@ -14,9 +14,10 @@
 namespace trisect::view {
 namespace {
 
-// Which kernels are the fastest for moving frames is judged by frames of a quarter of the window's
-// sides, whatever their scale, so that it does not change while something moves.
-constexpr uint32_t kWindowOverMovingFrame = 4;
+// Which kernels are the fastest for moving frames is judged by frames of half of the window's
+// sides, whatever their scale, so that it does not change while something moves. If slower kernels
+// were chosen than at full resolution, the frames would stay small for their sake.
+constexpr uint32_t kWindowOverMovingFrame = 2;
 
 }  // namespace
 

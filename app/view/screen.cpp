@@ -6,15 +6,37 @@
 #include <utility>
 
 #include "app/buffers/kernels.h"
+#include "vk/shader_code.h"
 
 namespace trisect::view {
+namespace {
+
+gpu::FullscreenPass pass_of(const gpu::Device& device, VkRenderPass render_pass, uint way) {
+  return {device,
+          render_pass,
+          spirv_of("screen_vert"),
+          gpu::specialized(spirv_of("screen_frag"), {{CONSTANT_SCREEN, way}}),
+          screen_interface(),
+          BINDING_FRAME,
+          "screen"};
+}
+
+uint way_of(const ScreenPush& push) {
+  if (push.shown != SHOWN_COLOR) return SCREEN_OUTPUT;
+  if (push.frame_width == push.width) return SCREEN_PIXEL;
+  return push.frame_width < 2 * push.width ? SCREEN_ENLARGED : SCREEN_MEAN;
+}
+
+}  // namespace
 
 Screen::Screen(const gpu::Instance& instance, const gpu::Device& device, const Window& window,
                VkSurfaceKHR surface)
     : device_(device),
       swapchain_(device, surface),
-      pass_(device, swapchain_.render_pass(), spirv_of("screen_vert"), spirv_of("screen_frag"),
-            screen_interface(), BINDING_FRAME, "screen"),
+      passes_{pass_of(device, swapchain_.render_pass(), SCREEN_PIXEL),
+              pass_of(device, swapchain_.render_pass(), SCREEN_ENLARGED),
+              pass_of(device, swapchain_.render_pass(), SCREEN_MEAN),
+              pass_of(device, swapchain_.render_pass(), SCREEN_OUTPUT)},
       layer_(instance, device, window, swapchain_.render_pass()),
       unused_(device, sizeof(PixelAovs), gpu::Memory::host, "unused") {
   std::fill(unused_.bytes().begin(), unused_.bytes().end(), std::byte{0});
@@ -29,7 +51,9 @@ bool Screen::show(uint32_t width, uint32_t height, const Picture& picture,
     texture_.emplace(device_, width, height, "frame");
     texture_is_current_ = false;
   }
-  pass_.bind({errors != nullptr ? errors : colors, aovs}, *texture_);
+  for (gpu::FullscreenPass& pass : passes_) {
+    pass.bind({errors != nullptr ? errors : colors, aovs}, *texture_);
+  }
   return swapchain_.show(
       width, height,
       [&](VkCommandBuffer commands) {
@@ -44,7 +68,7 @@ bool Screen::show(uint32_t width, uint32_t height, const Picture& picture,
         // Only now is the swapchain of the window's size.
         push.width = swapchain_.extent().width;
         push.height = swapchain_.extent().height;
-        pass_.draw(commands, std::as_bytes(std::span(&push, 1)));
+        passes_.at(way_of(push)).draw(commands, std::as_bytes(std::span(&push, 1)));
         PanelLayer::draw(commands);
       });
 }

@@ -1,6 +1,7 @@
 // Draws into the window: the frame or one of its outputs, and the panel over it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -50,7 +51,7 @@ class Screen {
  private:
   const gpu::Device& device_;
   gpu::Swapchain swapchain_;
-  gpu::FullscreenPass pass_;
+  std::array<gpu::FullscreenPass, SCREEN_WAYS> passes_;  // by SCREEN_...
   PanelLayer layer_;
   gpu::Buffer unused_;  // for the bindings of a picture without a frame
   // The picture's colours for filtered reading, in its upper left corner; of the largest size that
