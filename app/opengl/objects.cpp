@@ -1,6 +1,9 @@
 #include "app/opengl/objects.h"
 
 #include <fmt/format.h>
+
+#include <stdexcept>
+
 #include "app/base/error.h"
 
 namespace trisect::opengl {
@@ -74,7 +77,7 @@ Program make_program(const std::string& head, const std::vector<Stage>& stages) 
   return program;
 }
 
-Buffer::Buffer(std::size_t size, const std::string& name) {
+Buffer::Buffer(std::size_t size, const std::string& name) : size_(size) {
   GLuint buffer = 0;
   glGenBuffers(1, &buffer);
   buffer_ = Owned<free_buffer>(buffer);
@@ -84,8 +87,9 @@ Buffer::Buffer(std::size_t size, const std::string& name) {
 }
 
 void Buffer::write(std::span<const std::byte> bytes) {
+  if (bytes.size() != size_) throw std::logic_error("a part of a buffer is written");
   glBindBuffer(GL_COPY_WRITE_BUFFER, buffer_.get());
-  glBufferSubData(GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+  glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(size_), bytes.data(), GL_DYNAMIC_COPY);
 }
 
 void Buffer::read(std::size_t offset, std::span<std::byte> bytes) const {

@@ -80,17 +80,18 @@ class Buffer {
   // there is no memory.
   Buffer(std::size_t size, const std::string& name);
 
-  // Copies the bytes to the buffer's beginning.
+  // Gives the buffer these contents, as many bytes as it has. In new memory: with NVIDIA's driver
+  // 580.159 shaders have found zeros where a buffer was cleared and then written.
   void write(std::span<const std::byte> bytes);
   // Copies the buffer's bytes from `offset` on, and waits for commands that write them.
   void read(std::size_t offset, std::span<std::byte> bytes) const;
-  // Sets all bytes to 0, for shaders that are next. Not ahead of write(): NVIDIA's driver 580.159
-  // has cleared a buffer after a write that came later.
+  // Sets all bytes to 0.
   void clear();
   // Binds it to an indexed target, such as GL_SHADER_STORAGE_BUFFER.
   void bind(GLenum target, GLuint binding) const;
 
  private:
+  std::size_t size_;
   Owned<free_buffer> buffer_;
 };
 

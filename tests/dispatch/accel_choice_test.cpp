@@ -10,7 +10,7 @@ namespace trisect {
 namespace {
 
 // The most subpatches for which tiles are taken, of an image of 800x600.
-constexpr std::size_t kMost = std::size_t{24} * 100 * 75;
+constexpr std::size_t kMost = std::size_t{40} * 100 * 75;
 
 Accel chosen(const AccelRequest& request, std::size_t subpatches) {
   return chosen_accel(request, Backend::vulkan, subpatches);

@@ -64,7 +64,7 @@ TEST(Enclosure, HoldsTheSphereSurfaceWhereDirectionsVanish) {
   for (int i = 0; i < 400; ++i) {
     const test::RandomPatch corners = test::random_patch(random, 80.0);
     const auto& [a, b, c] = corners.normals;
-    // Normals that cancel out where the weights are 1/3, or beyond the edge from a to b.
+    // Normals that cancel out within the patch, or beyond its edge from a to b.
     const bool within = i % 2 == 0;
     const dvec3 last = within ? -(a + b) : a + b;
     if (glm::length(last) < 0.1) continue;
