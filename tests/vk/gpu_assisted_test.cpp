@@ -1,6 +1,7 @@
 // The kernels under the validation layer's GPU-assisted checks: it adds to each shader what looks
 // for reads and writes outside of buffers, by binding or by address. Kernels take ten times as long
-// to compile then (Mesa 25: thirty times), so that there is one small picture for each of them.
+// to compile then (Mesa 25: thirty times), so that there is one small picture for each of them, and
+// those of several kernels are among the slow tests.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -94,6 +95,7 @@ TEST_F(GpuAssisted, ChecksFindNothingByTheList) {
   expect_hits({.aovs = true, .counts = true});
 }
 
+#ifdef TRISECT_SLOW
 TEST_F(GpuAssisted, ChecksFindNothingByTilesAndInShadows) {
   expect_hits({.accel = Accel::tiles, .shadows = true});
 }
@@ -106,6 +108,7 @@ TEST_F(GpuAssisted, ChecksFindNothingByAddresses) {
   expect_hits({.accel = Accel::bvh}, limit);
   if (device_.has_ray_query()) expect_hits({.accel = Accel::rayquery});
 }
+#endif
 
 TEST_F(GpuAssisted, ChecksFindNothingInRaysFromABuffer) {
   std::mt19937_64 random(7);

@@ -174,26 +174,24 @@ TEST(ReconvergingSubgroups, AreAskedForOnce) {
   EXPECT_EQ(modes, 1);
 }
 
-TEST(Specialized, LeavesNoConstantToTheDriver) {
+// What rounds must round once and where it is written: its exactness outlives the passes.
+TEST(Specialized, LeavesNoConstantToTheDriverAndKeepsFloatsExact) {
   const std::vector<Specialization> constants{
       {CONSTANT_SURFACE, SURFACE_SPHERE}, {CONSTANT_SOLVER, SOLVER_ROBUST}, {CONSTANT_AOVS, 1U}};
   for (const KernelSource& kernel : kernel_sources()) {
-    const ShaderCode code = specialized(kernel.spirv, constants);
-    EXPECT_EQ(faults(code, kernel.ray_queries), "") << kernel.name;
+    SCOPED_TRACE(kernel.name);
+    const ShaderCode code =
+        specialized(is_exact(kernel) ? with_exact_floats(kernel.spirv)
+                                     : ShaderCode(kernel.spirv.begin(), kernel.spirv.end()),
+                    constants);
+    EXPECT_EQ(faults(code, kernel.ray_queries), "");
     const Module module(code);
     for (const Op op : {Op::OpSpecConstant, Op::OpSpecConstantTrue, Op::OpSpecConstantFalse,
                         Op::OpSpecConstantOp, Op::OpSpecConstantComposite}) {
-      EXPECT_EQ(module.count(op), 0U) << kernel.name;
+      EXPECT_EQ(module.count(op), 0U);
     }
-  }
-}
-
-// What rounds must round once and where it is written: its exactness outlives the passes.
-TEST(Specialized, KeepsFloatsExact) {
-  for (const KernelSource& kernel : kernel_sources()) {
     if (!is_exact(kernel)) continue;
-    EXPECT_EQ(inexact(specialized(with_exact_floats(kernel.spirv), {})), std::vector<std::string>{})
-        << kernel.name;
+    EXPECT_EQ(inexact(code), std::vector<std::string>{});
   }
 }
 
