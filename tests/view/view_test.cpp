@@ -95,16 +95,19 @@ TEST_F(View, SavesWhatRenderDoes) {
 }
 
 TEST_F(View, TakesEveryControl) {
-  const test::ProgramRun run = view(
+  const std::string controls =
       "0 flags --surface flat\n0.3 flags --surface sphere --shell height\n"
       "0.6 flags --solver bisect --rank 12\n0.9 flags --accel list\n1.2 flags --accel bvh\n"
       "1.5 flags --shadows --light 1,0.2,0\n1.8 flags --spp 4 --alpha 0.3\n"
       "2.1 shown shading normal\n2.3 shown geometric normal\n2.5 shown depth\n2.7 shown patch\n"
       "2.9 shown u v\n3.1 shown evaluations\n3.4 error\n3.6 press h\n3.7 press tab\n"
-      "3.8 press tab\n3.9 press o\n4 hold a 0.3\n4.3 press f\n5 quit\n");
-  ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
-  // How many is a matter of how long the kernels take to be made.
-  EXPECT_GT(stats()["frames"].get<int>(), 0);
+      "3.8 press tab\n3.9 press o\n4 hold a 0.3\n4.3 press f\n5 quit\n";
+  // The first time kernels may have to be made, and the next control comes before they are.
+  for (int i = 0; i < 2; ++i) {
+    const test::ProgramRun run = view(controls);
+    ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
+  }
+  EXPECT_GT(stats()["frames"].get<int>(), 5);
 }
 
 // The picture has to come to an end before the script begins, whatever the script is to do then.
