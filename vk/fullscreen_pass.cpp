@@ -26,9 +26,9 @@ KernelInterface with_texture(KernelInterface interface, uint32_t binding) {
 }  // namespace
 
 FullscreenPass::FullscreenPass(const Device& device, VkRenderPass render_pass,
-                               std::span<const uint32_t> vertex, std::span<const uint32_t> fragment,
-                               KernelInterface interface, uint32_t texture_binding,
-                               const std::string& name)
+                               std::span<const uint32_t> vertex,
+                               const std::vector<ShaderCode>& fragments, KernelInterface interface,
+                               uint32_t texture_binding, const std::string& name)
     : device_(&device),
       interface_(std::move(interface)),
       texture_binding_(texture_binding),
@@ -39,9 +39,6 @@ FullscreenPass::FullscreenPass(const Device& device, VkRenderPass render_pass,
       pool_(make_pool(device, with_texture(interface_, texture_binding))),
       set_(allocate_set(device, pool_.get(), set_layout_.get())) {
   const ShaderModule vertex_module = make_shader_module(device, vertex);
-  const ShaderModule fragment_module = make_shader_module(device, fragment);
-  const std::array stages{stage_of(VK_SHADER_STAGE_VERTEX_BIT, vertex_module),
-                          stage_of(VK_SHADER_STAGE_FRAGMENT_BIT, fragment_module)};
   const VkPipelineVertexInputStateCreateInfo input{
       VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
   VkPipelineInputAssemblyStateCreateInfo assembly{
@@ -70,8 +67,6 @@ FullscreenPass::FullscreenPass(const Device& device, VkRenderPass render_pass,
   dynamic.pDynamicStates = dynamic_states.data();
 
   VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
-  info.stageCount = static_cast<uint32_t>(stages.size());
-  info.pStages = stages.data();
   info.pVertexInputState = &input;
   info.pInputAssemblyState = &assembly;
   info.pViewportState = &viewport;
@@ -81,9 +76,17 @@ FullscreenPass::FullscreenPass(const Device& device, VkRenderPass render_pass,
   info.pDynamicState = &dynamic;
   info.layout = layout_.get();
   info.renderPass = render_pass;
-  TRISECT_VK(vkCreateGraphicsPipelines(device.get(), device.pipeline_cache(), 1, &info, nullptr,
-                                       pipeline_.fill(device.get())));
-  device.name(VK_OBJECT_TYPE_PIPELINE, pipeline_.get(), name);
+  for (const ShaderCode& fragment : fragments) {
+    const ShaderModule fragment_module = make_shader_module(device, fragment);
+    const std::array stages{stage_of(VK_SHADER_STAGE_VERTEX_BIT, vertex_module),
+                            stage_of(VK_SHADER_STAGE_FRAGMENT_BIT, fragment_module)};
+    info.stageCount = static_cast<uint32_t>(stages.size());
+    info.pStages = stages.data();
+    auto& pipeline = pipelines_.emplace_back();
+    TRISECT_VK(vkCreateGraphicsPipelines(device.get(), device.pipeline_cache(), 1, &info, nullptr,
+                                         pipeline.fill(device.get())));
+    device.name(VK_OBJECT_TYPE_PIPELINE, pipeline.get(), name);
+  }
 }
 
 void FullscreenPass::bind(const std::vector<const Buffer*>& buffers, const Texture& texture) {
@@ -99,12 +102,13 @@ void FullscreenPass::bind(const std::vector<const Buffer*>& buffers, const Textu
   vkUpdateDescriptorSets(device_->get(), 1, &write, 0, nullptr);
 }
 
-void FullscreenPass::draw(VkCommandBuffer commands, std::span<const std::byte> push) const {
+void FullscreenPass::draw(VkCommandBuffer commands, std::size_t fragment,
+                          std::span<const std::byte> push) const {
   if (push.size() != interface_.push_size) {
     throw std::logic_error("a fullscreen pass with " + std::to_string(interface_.push_size) +
                            " bytes of push constants got " + std::to_string(push.size()));
   }
-  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());
+  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.at(fragment).get());
   vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &set_, 0,
                           nullptr);
   vkCmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_FRAGMENT_BIT, 0,

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "app/buffers/kernels.h"
 #include "vk/shader_code.h"
@@ -11,14 +12,12 @@
 namespace trisect::view {
 namespace {
 
-gpu::FullscreenPass pass_of(const gpu::Device& device, VkRenderPass render_pass, uint way) {
-  return {device,
-          render_pass,
-          spirv_of("screen_vert"),
-          gpu::specialized(spirv_of("screen_frag"), {{CONSTANT_SCREEN, way}}),
-          screen_interface(),
-          BINDING_FRAME,
-          "screen"};
+std::vector<gpu::ShaderCode> shaders_by_way() {
+  std::vector<gpu::ShaderCode> shaders;
+  for (uint way = 0; way < SCREEN_WAYS; ++way) {
+    shaders.push_back(gpu::specialized(spirv_of("screen_frag"), {{CONSTANT_SCREEN, way}}));
+  }
+  return shaders;
 }
 
 uint way_of(const ScreenPush& push) {
@@ -33,10 +32,8 @@ Screen::Screen(const gpu::Instance& instance, const gpu::Device& device, const W
                VkSurfaceKHR surface)
     : device_(device),
       swapchain_(device, surface),
-      passes_{pass_of(device, swapchain_.render_pass(), SCREEN_PIXEL),
-              pass_of(device, swapchain_.render_pass(), SCREEN_ENLARGED),
-              pass_of(device, swapchain_.render_pass(), SCREEN_MEAN),
-              pass_of(device, swapchain_.render_pass(), SCREEN_OUTPUT)},
+      pass_(device, swapchain_.render_pass(), spirv_of("screen_vert"), shaders_by_way(),
+            screen_interface(), BINDING_FRAME, "screen"),
       layer_(instance, device, window, swapchain_.render_pass()),
       unused_(device, sizeof(PixelAovs), gpu::Memory::host, "unused") {
   std::fill(unused_.bytes().begin(), unused_.bytes().end(), std::byte{0});
@@ -51,9 +48,7 @@ bool Screen::show(uint32_t width, uint32_t height, const Picture& picture,
     texture_.emplace(device_, width, height, "frame");
     texture_is_current_ = false;
   }
-  for (gpu::FullscreenPass& pass : passes_) {
-    pass.bind({errors != nullptr ? errors : colors, aovs}, *texture_);
-  }
+  pass_.bind({errors != nullptr ? errors : colors, aovs}, *texture_);
   return swapchain_.show(
       width, height,
       [&](VkCommandBuffer commands) {
@@ -68,7 +63,7 @@ bool Screen::show(uint32_t width, uint32_t height, const Picture& picture,
         // Only now is the swapchain of the window's size.
         push.width = swapchain_.extent().width;
         push.height = swapchain_.extent().height;
-        passes_.at(way_of(push)).draw(commands, std::as_bytes(std::span(&push, 1)));
+        pass_.draw(commands, way_of(push), std::as_bytes(std::span(&push, 1)));
         PanelLayer::draw(commands);
       });
 }

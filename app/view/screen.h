@@ -1,7 +1,6 @@
 // Draws into the window: the frame or one of its outputs, and the panel over it.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -51,7 +50,7 @@ class Screen {
  private:
   const gpu::Device& device_;
   gpu::Swapchain swapchain_;
-  std::array<gpu::FullscreenPass, SCREEN_WAYS> passes_;  // by SCREEN_...
+  gpu::FullscreenPass pass_;  // a fragment shader for each SCREEN_...
   PanelLayer layer_;
   gpu::Buffer unused_;  // for the bindings of a picture without a frame
   // The picture's colours for filtered reading, in its upper left corner; of the largest size that
